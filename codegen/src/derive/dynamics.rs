@@ -219,6 +219,14 @@ pub fn forces_besides<'g>(
         let mut total = inertial + -applied + -held + carried[at];
         let movable = keeps_place(link) && (by_fields.is_some() || masses[at].modal.is_none());
         let inboard = axes.masses_inboard && link.parent.is_some() && movable;
+        // Inertial force where the joint stands still.
+        let force_about_joint = || match by_fields {
+            Some(body) => {
+                let still = Acceleration { origin: g.zero_vector(), ..*frame };
+                body.wrench(&still, &known).force
+            }
+            None => frame.spin * masses[at].rigid.first,
+        };
         if axes.forces_in_ground {
             let turn = poses.world[at].rotation;
             let mut less = held.force - borne[at];
@@ -226,12 +234,8 @@ pub fn forces_besides<'g>(
                 less -= at_origin[at] * frame.origin;
             }
             let own = match (by_fields, &masses[at].modal) {
-                (None, None) if !inboard => rigid_force_in_ground(motion, masses, at, less),
-                (None, None) => turn * (frame.spin * masses[at].rigid.first - less),
-                (Some(body), _) if inboard => {
-                    let still = Acceleration { origin: g.zero_vector(), ..*frame };
-                    turn * (body.wrench(&still, &known).force - less)
-                }
+                _ if inboard => turn * (force_about_joint() - less),
+                (None, None) => rigid_force_in_ground(motion, masses, at, less),
                 _ => turn * (inertial.force - less),
             };
             let sum = in_ground[at] + (own - turn * applied.force);
@@ -276,14 +280,7 @@ pub fn forces_besides<'g>(
                     // Mass at the joint moves with the parent link, along whose axes its power mostly vanishes.
                     let force = masses[at].rigid.mass * motion.accelerations[parent].at(pose.offset);
                     carried[parent] += Wrench { moment: pose.offset.cross(force), force };
-                    let own = match by_fields {
-                        Some(body) => {
-                            let still = Acceleration { origin: g.zero_vector(), ..*frame };
-                            body.wrench(&still, &known).force
-                        }
-                        None => frame.spin * masses[at].rigid.first,
-                    };
-                    total.force = own + -applied.force + -held.force + carried[at].force;
+                    total.force = force_about_joint() + -applied.force + -held.force + carried[at].force;
                 }
                 let screw = screw.map(|axis| g.vector(axis));
                 forces[linkage.links[parent].first_speed] += total.felt_inboard(link.freedom, pose, screw);

@@ -296,7 +296,7 @@ impl<P: Processor> Allocation<'_, P> {
         }
         let distance = |register: Register| {
             let id = self.held[usize::from(register)].filter(|id| !locked.contains(id))?;
-            let next = self.uses.after(id, self.now).map_or(u64::from(u32::MAX), u64::from);
+            let next = self.next_read(id).map_or(u64::from(u32::MAX), u64::from);
             let factor = if self.home[id as usize].is_some() { PREFER_CLEAN } else { 1 };
             Some((next - u64::from(self.now)) * factor)
         };

@@ -98,7 +98,9 @@ impl Graph {
     pub(crate) fn node_of<const N: usize>(&mut self, operation: Operation, arguments: [Id; N]) -> Id {
         let width = arguments.iter().map(|id| self.node(*id).width).max().unwrap_or(1);
         let arguments = arguments.map(|id| match self.node(id).operation {
-            constant @ Operation::Constant(_) => self.of_width(constant, [], width),
+            constant @ Operation::Constant(_) if self.node(id).width < width => {
+                self.of_width(constant, [], width)
+            }
             _ => id,
         });
         self.of_width(operation, arguments, width)

@@ -25,14 +25,14 @@ impl<P: Processor> Allocation<'_, P> {
     /// Of two arguments that may be exchanged the one to load first: what is in a register, else what is read again sooner.
     pub(crate) fn in_good_order(&self, first: Id, second: Id) -> (Id, Id) {
         let is_held = |id: Id| self.register_of(id).is_some();
-        let far = |id: Id| self.uses.after(id, self.now).unwrap_or(u32::MAX);
+        let far = |id: Id| self.next_read(id).unwrap_or(u32::MAX);
         let exchange = !is_held(first) && (is_held(second) || far(second) < far(first));
         if exchange { (second, first) } else { (first, second) }
     }
 
     /// Whether it is better to load a value than to read it from memory.
     pub(crate) fn is_worth_a_register(&self, id: Id) -> bool {
-        let again = self.uses.after(id, self.now).is_some_and(|next| next - self.now <= SOON);
+        let again = self.next_read(id).is_some_and(|next| next - self.now <= SOON);
         again && self.free_register().is_some()
     }
 }

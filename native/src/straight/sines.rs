@@ -9,7 +9,8 @@ use super::number::Recorder;
 
 /// Writes sines and cosines out, for at most so many angles side by side.
 pub(super) fn written_out(lowered: Lowered, widest: usize) -> Lowered {
-    let steps = steps(&lowered);
+    let needed = lowered.needed();
+    let steps = steps(&lowered, &needed);
     if steps.iter().all(|step| step.angles.is_empty()) {
         return lowered;
     }
@@ -32,7 +33,6 @@ pub(super) fn written_out(lowered: Lowered, widest: usize) -> Lowered {
         }
     }
     let placed = |ids: &[Id]| ids.iter().map(|id| places[*id as usize]).collect();
-    let needed = lowered.needed();
     let first: Vec<Id> = lowered.first.iter().copied().filter(|id| needed[*id as usize]).collect();
     let (first, outputs) = (placed(&first), placed(&lowered.outputs));
     Lowered { graph: recorder.into_graph(), inputs: lowered.inputs, first, outputs }
@@ -47,9 +47,8 @@ struct Step {
 }
 
 /// The steps of all that outputs need.
-fn steps(lowered: &Lowered) -> Vec<Step> {
+fn steps(lowered: &Lowered, needed: &[bool]) -> Vec<Step> {
     let graph = &lowered.graph;
-    let needed = lowered.needed();
     let mut steps: Vec<Step> = Vec::new();
     let mut step_of: Vec<usize> = vec![0; graph.len()];
     for id in (0..graph.len() as Id).filter(|id| needed[*id as usize]) {

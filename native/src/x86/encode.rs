@@ -254,10 +254,12 @@ impl<'a> Encoder<'a> {
         let whole = 16 << self.length();
         let number = form.map == 2 && form.opcode == 0x19 || self.lanes == Lanes::One;
         let half = form.map == 3 || form.map == 1 && form.opcode == 0x16;
-        let unit = match () {
-            () if broadcast == 1 || form.scalar && number => 8,
-            () if half => self.lanes.bytes() as i32 / 2,
-            () => whole,
+        let unit = if broadcast == 1 || form.scalar && number {
+            8
+        } else if half {
+            self.lanes.bytes() as i32 / 2
+        } else {
+            whole
         };
         self.operand(register, operand, unit);
     }

@@ -1,5 +1,5 @@
 //! Which comparisons the mask registers hold. A comparison lies in a mask register alone until something other than a selection reads it,
-//! or masks run out: copies to and from vector registers would be an eighth of the code that laws of contact take.
+//! or masks run out: copies to and from vector registers would be a ninth of the code that concludes a step.
 //! In: comparisons as they are made and read. Out: mask registers. Never knows bytes.
 
 use crate::straight::allocate::Allocation;

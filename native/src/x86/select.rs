@@ -238,21 +238,16 @@ fn less_to_mask(
 fn select(allocation: &mut Allocation<'_, Target>, masks: &mut Masks, id: Id, [by, yes, no]: [Id; 3]) {
     let node = allocation.node(id);
     let locked = node.arguments();
-    let select = if allocation.processor.has_masks() {
-        let mask = masks.mask_of(allocation, by, locked);
-        let no = allocation.load(no, locked);
-        let yes = operand(allocation, yes, &node);
-        let to = allocation.result(&node);
+    let by_mask = allocation.processor.has_masks();
+    let mask = if by_mask { masks.mask_of(allocation, by, locked) } else { allocation.load(by, locked) };
+    let no = allocation.load(no, locked);
+    let yes = operand(allocation, yes, &node);
+    let to = allocation.result(&node);
+    let select = if by_mask {
         Instruction::SelectByMask { to, no, yes, mask }
     } else {
-        let mask = allocation.load(by, locked);
-        let no = allocation.load(no, locked);
-        let yes = operand(allocation, yes, &node);
-        let to = allocation.result(&node);
         Instruction::Select { to, no, yes, mask }
     };
     push(allocation, id, select);
-    if let Instruction::Select { to, .. } | Instruction::SelectByMask { to, .. } = select {
-        allocation.define(id, to);
-    }
+    allocation.define(id, to);
 }

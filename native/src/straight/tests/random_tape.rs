@@ -60,8 +60,7 @@ impl Random {
         let mut values = 0;
         for _ in 0..size {
             let op = self.op(inputs, values, calls);
-            let statement =
-                Statement { op, first: values, labels: [None, None], section: 0, stores: Vec::new() };
+            let statement = statement(op, values, &[]);
             values = statement.results().end;
             statements.push(statement);
         }
@@ -75,18 +74,33 @@ impl Random {
                 operand => direct.push((index, operand)),
             }
         }
-        Tape {
-            name: "random".into(),
-            doc: String::new(),
-            inputs: vec![Block::vector("x", inputs)],
-            input_names: (0..inputs).map(|index| format!("x{index}")).collect(),
-            outputs: vec![Block::vector("y", outputs)],
-            direct,
-            statements,
-            sections: vec![String::new()],
-            values,
-        }
+        of_statements([inputs, outputs], direct, statements)
     }
+}
+
+/// A tape of so many inputs and outputs.
+pub(crate) fn of_statements(
+    [inputs, outputs]: [usize; 2],
+    direct: Vec<(u32, Operand)>,
+    statements: Vec<Statement>,
+) -> Tape {
+    Tape {
+        name: "statements".into(),
+        doc: String::new(),
+        inputs: vec![Block::vector("x", inputs)],
+        input_names: (0..inputs).map(|index| format!("x{index}")).collect(),
+        outputs: vec![Block::vector("y", outputs)],
+        direct,
+        values: statements.last().map_or(0, |last| last.results().end),
+        statements,
+        sections: vec![String::new()],
+    }
+}
+
+/// A statement that defines values from `first` on, each stored where `outputs` say.
+pub(crate) fn statement(op: Op, first: u32, outputs: &[u32]) -> Statement {
+    let stores = outputs.iter().zip(first..).map(|(output, value)| (*output, Operand::Value(value)));
+    Statement { op, first, labels: [None, None], section: 0, stores: stores.collect() }
 }
 
 /// What a tape means.

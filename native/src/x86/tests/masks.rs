@@ -1,10 +1,10 @@
 //! More comparisons than there are mask registers, read again when others have taken their place.
 
-use linkwear_tape::{Block, Op, Operand, Statement, Tape, Unary};
+use linkwear_tape::{Op, Operand, Tape, Unary};
 
 use super::random::functions;
 use crate::memory::code::Code;
-use crate::straight::tests::random_tape::{Random, evaluated};
+use crate::straight::tests::random_tape::{Random, evaluated, of_statements, statement};
 use crate::straight::write::write;
 use crate::x86::features::can_run;
 use crate::x86::instruction::{Lanes, Target};
@@ -21,22 +21,9 @@ fn choices(calls: bool) -> Tape {
     }
     let first = |at: u32| Operand::Value(at % INPUTS);
     ops.extend((0..INPUTS).map(|at| Op::Select(input(at), first(at + 2), first(at + 5))));
-    let values = ops.len() as u32;
-    let statement = |(value, op): (u32, Op)| {
-        let stores = vec![(value, Operand::Value(value))];
-        Statement { op, first: value, labels: [None, None], section: 0, stores }
-    };
-    Tape {
-        name: "choices".into(),
-        doc: String::new(),
-        inputs: vec![Block::vector("x", INPUTS as usize)],
-        input_names: (0..INPUTS).map(|index| format!("x{index}")).collect(),
-        outputs: vec![Block::vector("y", values as usize)],
-        direct: Vec::new(),
-        statements: (0..).zip(ops).map(statement).collect(),
-        sections: vec![String::new()],
-        values,
-    }
+    let count = ops.len();
+    let statements = (0..).zip(ops).map(|(value, op)| statement(op, value, &[value])).collect();
+    of_statements([INPUTS as usize, count], Vec::new(), statements)
 }
 
 #[test]

@@ -1,19 +1,15 @@
 //! Sines of several angles of one state: side by side in one register, in the bits that each has alone.
 
 use linkwear_runtime::Scalar;
-use linkwear_tape::{Binary as Of, Block, Op, Operand, Statement, Tape};
+use linkwear_tape::{Binary as Of, Op, Operand, Tape};
 
 use crate::memory::code::Code;
+use crate::straight::tests::random_tape::{of_statements, statement};
 use crate::straight::write::{placed, write};
 use crate::x86::features::{can_run, target};
 use crate::x86::instruction::{Binary, Instruction, Lanes, Target};
 
 const NO_CALLS: fn(crate::straight::graph::Function) -> usize = |_| 0;
-
-fn statement(op: Op, first: u32, outputs: &[u32]) -> Statement {
-    let stores = outputs.iter().zip(first..).map(|(output, value)| (*output, Operand::Value(value)));
-    Statement { op, first, labels: [None, None], section: 0, stores: stores.collect() }
-}
 
 /// Sine and cosine of every input, and of the sum of these two: an angle that waits for the first.
 fn sines(count: u32) -> Tape {
@@ -25,17 +21,7 @@ fn sines(count: u32) -> Tape {
         statements.push(statement(Op::Binary(Of::Add, sine, cosine), first + 2, &[]));
         statements.push(statement(Op::SinCos(sum), first + 3, &[output + 2, output + 3]));
     }
-    Tape {
-        name: "sines".into(),
-        doc: String::new(),
-        inputs: vec![Block::vector("x", count as usize)],
-        input_names: (0..count).map(|index| format!("x{index}")).collect(),
-        outputs: vec![Block::vector("y", 4 * count as usize)],
-        direct: Vec::new(),
-        statements,
-        sections: vec![String::new()],
-        values: 5 * count,
-    }
+    of_statements([1, 4].map(|each| each * count as usize), Vec::new(), statements)
 }
 
 #[test]
