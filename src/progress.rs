@@ -3,7 +3,7 @@
 
 use std::io::{IsTerminal, stderr};
 use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -48,11 +48,20 @@ pub fn watched<T>(stage: &'static str, work: impl FnOnce(Watch<'_>) -> T) -> T {
     UNHEARD.store(false, Ordering::Relaxed);
     let progress = Mutex::new(Progress::new(stage));
     let shown = || progress.lock().unwrap_or_else(PoisonError::into_inner);
+    // Calls left before the next look. Threads may count a call twice or not at all: a step is shorter than a lock.
+    let left = AtomicU32::new(0);
     let hear = |part| {
-        shown().set(part);
+        match left.load(Ordering::Relaxed) {
+            0 => left.store(shown().set(part), Ordering::Relaxed),
+            calls => left.store(calls - 1, Ordering::Relaxed),
+        }
         go_on(part)
     };
-    let result = work(Watch::new(&hear).with_stages(&|stage| shown().begin(stage)));
+    let begin = |stage| {
+        shown().begin(stage);
+        left.store(0, Ordering::Relaxed);
+    };
+    let result = work(Watch::new(&hear).with_stages(&begin));
     progress.into_inner().unwrap_or_else(PoisonError::into_inner).finish();
     result
 }
@@ -117,9 +126,8 @@ struct Progress {
     start: Instant,
     last_line: Instant,
     last_look: Instant,
-    /// Calls without a look at the clock, and how many of them are left.
+    /// Calls without a look at the clock.
     calls: u32,
-    left: u32,
 }
 
 impl Progress {
@@ -132,7 +140,7 @@ impl Progress {
                 ProgressStyle::with_template("{msg} {bar:40} {percent:>3} %  {eta} left  (Ctrl-C stops)");
             bar.with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar())).with_message(stage)
         });
-        Self { bar, stage, start: now, last_line: now, last_look: now, calls: 0, left: 0 }
+        Self { bar, stage, start: now, last_line: now, last_look: now, calls: 0 }
     }
 
     /// Another stage, which counts from 0 again.
@@ -140,7 +148,7 @@ impl Progress {
         if self.stage == stage {
             return;
         }
-        (self.stage, self.start, self.left) = (stage, Instant::now(), 0);
+        (self.stage, self.start) = (stage, Instant::now());
         if let Some(bar) = &self.bar {
             bar.set_message(stage);
             bar.set_position(0);
@@ -148,18 +156,14 @@ impl Progress {
         }
     }
 
-    /// Shows how far it is, `fraction` in 0..1.
-    fn set(&mut self, fraction: f64) {
-        if self.left > 0 {
-            self.left -= 1;
-            return;
-        }
+    /// Shows how far it is, `fraction` in 0..1. How many calls may go by before the next.
+    fn set(&mut self, fraction: f64) -> u32 {
         let now = Instant::now();
         let seldom = now.duration_since(self.last_look) >= LOOK;
         self.calls = if seldom { self.calls / 2 } else { (2 * self.calls + 1).min(MOST_CALLS) };
-        (self.last_look, self.left) = (now, self.calls);
+        self.last_look = now;
         if now.duration_since(self.start) < QUIET {
-            return;
+            return self.calls;
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between 0 and 1000")]
         let thousandths = (fraction.clamp(0.0, 1.0) * 1000.0) as u64;
@@ -169,6 +173,7 @@ impl Progress {
             self.last_line = Instant::now();
             eprintln!("{}", line(self.stage, fraction, self.start.elapsed()));
         }
+        self.calls
     }
 
     /// Takes the bar away.

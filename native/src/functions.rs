@@ -63,6 +63,11 @@ impl Functions {
         Self::of_parts::<1>(tapes, plan, &[Part::Derivative])
     }
 
+    /// The stages within a step: see [`linkwear_runtime::InnerStages`].
+    pub(crate) fn of_stages(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
+        Self::of_parts::<1>(tapes, plan, &[Part::Stages])
+    }
+
     fn of_parts<const LANES: usize>(
         tapes: &[Tape],
         plan: &StepPlan,

@@ -1,10 +1,12 @@
 //! A mechanism as machine code. In: one tape per entry. Out: a [`System`]. Never knows how code is written.
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use linkwear_runtime::clearance_joint::Clearance;
-use linkwear_runtime::{Bundle, Description, Entry, STATES, SideBySide, Sizes, StepPlan, System, WithLaws};
+use linkwear_runtime::{
+    Bundle, Description, Entry, InnerStages, STATES, SideBySide, Sizes, StepPlan, System, WithLaws,
+};
 use linkwear_tape::Tape;
 
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
@@ -59,6 +61,15 @@ struct Laws {
     functions: Arc<Functions>,
     /// See [`WithLaws::laws`].
     words: Arc<str>,
+    stages: Arc<Stages>,
+}
+
+/// The stages within a step, with the laws of contact inside.
+struct Stages {
+    tapes: Vec<Tape>,
+    plan: StepPlan,
+    /// Written when they are asked for first: the code is three times as long as that of a derivative.
+    functions: OnceLock<Option<Functions>>,
 }
 
 /// What runs ask at several states at once.
@@ -198,7 +209,9 @@ impl Native {
             return Ok(outside);
         }
         let functions = Arc::new(Functions::of_laws(tapes, &plan)?);
-        Ok(Self { laws: Some(Laws { functions, words: plan.laws().into() }), ..outside })
+        let words = plan.laws().into();
+        let stages = Arc::new(Stages { tapes: tapes.to_vec(), plan, functions: OnceLock::new() });
+        Ok(Self { laws: Some(Laws { functions, words, stages }), ..outside })
     }
 }
 
@@ -231,6 +244,22 @@ impl WithLaws<f64> for Laws {
 
     fn derivative(&self, question: &[f64], answer: &mut [f64], workspace: &mut [f64]) {
         self.functions.run(0, question, answer, workspace);
+    }
+
+    fn inner_stages(&self) -> Option<&dyn InnerStages<f64>> {
+        let Stages { tapes, plan, functions } = &*self.stages;
+        let written = functions.get_or_init(|| Functions::of_stages(tapes, plan).ok());
+        written.as_ref().map(|written| written as &dyn InnerStages<f64>)
+    }
+}
+
+impl InnerStages<f64> for Functions {
+    fn workspace(&self) -> usize {
+        self.workspace()
+    }
+
+    fn evaluate(&self, question: &[f64], answer: &mut [f64], workspace: &mut [f64]) {
+        self.run(0, question, answer, workspace);
     }
 }
 

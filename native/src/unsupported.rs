@@ -22,6 +22,10 @@ impl Functions {
         Self::new::<1>(&[])
     }
 
+    pub(crate) fn of_stages(_: &[Tape], _: &StepPlan) -> Result<Self, Refusal> {
+        Self::new::<1>(&[])
+    }
+
     pub(crate) fn of_columns<const LANES: usize>(_: &[Tape]) -> Result<Self, Refusal> {
         Self::new::<LANES>(&[])
     }

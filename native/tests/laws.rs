@@ -5,8 +5,8 @@ use std::path::Path;
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_native::{Native, NativeBundle, Refusal};
 use linkwear_runtime::{
-    Description, Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StepPlan, System, TurnRunner,
-    Watch, simulate,
+    Description, INNER_STAGES, Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StepPlan, System,
+    TurnRunner, Watch, WithLaws, simulate,
 };
 
 const METHODS: [Integrator; 2] =
@@ -39,14 +39,16 @@ fn runs_have_the_same_bits() {
         let Some([outside, inside]) = both(&mechanism) else { return };
         assert!(outside.laws_inside().is_none() && inside.laws_inside().is_some(), "{name}");
         for method in METHODS {
-            let settings = Settings::new(method, Span::Time(0.02), 11);
+            // Long enough for code of the stages within steps.
+            let settings = Settings::new(method, Span::Time(0.12), 11);
             let run = |system: &Native| {
                 let (description, parameters) = (mechanism.description(), mechanism.parameters());
                 simulate(system, description, &parameters, &settings, Watch::NONE).expect("a run")
             };
             let (expected, found) = (run(&outside), run(&inside));
             assert!(expected.rows.len() == 11 && bits(&expected) == bits(&found), "{name} {method:?}");
-            assert_eq!(expected.statistics.steps, found.statistics.steps, "{name} {method:?}");
+            assert_eq!(expected.statistics, found.statistics, "{name} {method:?}");
+            assert!(found.statistics.steps > 600, "{name} {method:?}: {}", found.statistics.steps);
         }
     }
 }
@@ -58,13 +60,13 @@ fn wear_and_parameters_change_under_way() {
     let Some(systems) = both(&mechanism) else { return };
     let (description, parameters) = (mechanism.description(), mechanism.parameters());
     let [expected, found] = systems.each_ref().map(|system| {
-        let settings = Settings::new(METHODS[0], Span::Time(0.02), 0);
+        let settings = Settings::new(METHODS[0], Span::Time(0.2), 0);
         let mut simulation = Simulation::start(system, description, &parameters, &settings).expect("a start");
-        simulation.advance(0.01, Watch::NONE).expect("a motion");
+        simulation.advance(0.1, Watch::NONE).expect("a motion");
         let mut others = parameters.clone();
         others[0] *= 2.0;
         simulation.set_parameters(&others).expect("another clearance");
-        simulation.advance(0.02, Watch::NONE).expect("a motion");
+        simulation.advance(0.2, Watch::NONE).expect("a motion");
         let mut runner =
             TurnRunner::new(system, description, &parameters, METHODS[0], SINGULAR_PIVOT).expect("a start");
         runner.set_worn(0, 3e-5, None).expect("a clearance");
@@ -73,6 +75,49 @@ fn wear_and_parameters_change_under_way() {
     let bits = |memory: &[f64]| memory.iter().map(|value| value.to_bits()).collect::<Vec<_>>();
     assert_eq!(bits(&expected.0), bits(&found.0));
     assert_eq!(expected.1, found.1);
+}
+
+/// Code of the stages within a step answers in the bits of the plan, and says where its answer does not count.
+#[test]
+fn stages_within_a_step_have_the_bits_of_their_plan() {
+    for name in ["mechanisms/rssr.toml", "mechanisms/rssr_ball_wear.toml"] {
+        let mechanism = compiled(name);
+        let Some([_, inside]) = both(&mechanism) else { return };
+        let code = inside.laws_inside().and_then(WithLaws::inner_stages).expect("code of the stages");
+        let interpreter = mechanism.interpreter();
+        let sizes = System::<f64>::sizes(&interpreter);
+        let plan = StepPlan::new(mechanism.description(), sizes).expect("laws");
+        let evaluate = |entry, input: &[f64]| {
+            let (mut output, mut workspace) = (vec![0.0; sizes.output(entry)], vec![0.0; sizes.workspace]);
+            System::evaluate(&interpreter, entry, input, &mut output, &mut workspace);
+            output
+        };
+        let state = mechanism.start().expect("a start").state;
+        let (contacts, clearance) = (sizes.contacts, 1e-5);
+        // Unworn, as stiff as steel, apart; then as the plan lists it.
+        let memory = [0.0, 1e10, 0.0, 0.0].repeat(contacts);
+        let question = |known: f64, speed: f64| {
+            let (length, slope) = (1e-5, vec![speed; state.len()]);
+            let times = [0.5 * length, length, length];
+            let (known, pivots) = (vec![known; contacts], vec![0.0; sizes.rows]);
+            [mechanism.parameters(), times.to_vec(), state.clone(), slope, memory.clone(), known, pivots]
+                .concat()
+        };
+        let answer = |question: &[f64]| {
+            assert_eq!(question.len(), plan.stages_question());
+            let expected = plan.stages(&evaluate, question);
+            let (mut found, mut workspace) = (vec![0.0; expected.len()], vec![0.0; code.workspace()]);
+            code.evaluate(question, &mut found, &mut workspace);
+            // What is no number has any sign.
+            let bits = |x: &f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
+            assert!(expected.iter().map(bits).eq(found.iter().map(bits)), "{name}");
+            // Behind the slopes: regularity at the last stage, and the least.
+            found[INNER_STAGES * sizes.flat_state() + 1]
+        };
+        assert!(answer(&question(clearance, 0.1)) > 0.5, "{name}");
+        assert_eq!(answer(&question(1.5 * clearance, 0.1)), 0.0, "another clearance, {name}");
+        assert!(answer(&question(clearance, f64::INFINITY)).is_nan(), "no numbers, {name}");
+    }
 }
 
 /// Laws of another description, as segments of missions have them, are not those of the code.

@@ -9,6 +9,8 @@ mod held;
 mod inside;
 mod questions;
 mod sampled;
+mod stages;
+mod within;
 
 pub use answers::{Accelerations, Closure, Equations, Forward, LoopError, Rates};
 pub use closed::{CLOSED, CLOSED_AT_START};

@@ -14,7 +14,7 @@ use crate::joint_laws::JointLaws;
 use crate::linear::is_finite;
 use crate::manifold::groups;
 use crate::regularity::{PROJECTED_STAGES, note_pivots};
-use crate::runge_kutta::rk4;
+use crate::runge_kutta::{advance, inner_stages};
 use crate::system::{Entry, Sizes, System, TOTALS, WORKS};
 use crate::tables::{AllTables, SAMPLE, Start, Tables};
 use storage::{ANSWER, Storage};
@@ -182,16 +182,16 @@ impl<'m, S: System<f64>> FixedStep<'m, S> {
         (parameters, t, length): (&[f64], f64, f64),
         y: &[f64],
         stage: &mut [f64],
-        slopes: [&mut [f64]; 4],
+        [k1, k2, k3, k4]: [&mut [f64]; 4],
     ) -> Result<(), Halt> {
-        let mut nearness = 1.0;
-        rk4((t, length), y, stage, slopes, &mut |stage, t, y, slope| {
+        let mut nearness = self.slope(parameters, t, y, k1)?;
+        self.note_depths();
+        let within = (&*k1, [&mut *k2, &mut *k3, &mut *k4]);
+        inner_stages((t, length), y, stage, within, &mut |t, y, slope| {
             nearness = self.slope(parameters, t, y, slope)?;
-            if stage == 0 {
-                self.note_depths();
-            }
             Ok(())
         })?;
+        advance(stage, y, length, [k1, k2, k3, k4]);
         let end = t + length;
         let moved = self.put_on((parameters, end), stage, nearness)?;
         if !is_finite(stage) {

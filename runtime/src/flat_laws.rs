@@ -7,7 +7,7 @@ use crate::clearance_joint::{Clearance, ClearanceState, ContactState};
 use crate::contact::{ImpactMemory, Support};
 use crate::joint_laws::Response;
 use crate::scalar::Scalar;
-use crate::system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, TOTALS};
+use crate::system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, INNER_STAGES, Sizes, TOTALS};
 
 /// Laws with all their constants, in words that are equal for equal laws alone: numbers are written to the last place.
 pub(crate) fn in_words(joints: &[Clearance]) -> String {
@@ -51,6 +51,71 @@ impl LawsPlaces {
     /// Length of all.
     pub(crate) fn all(&self) -> usize {
         self.clearances.end
+    }
+}
+
+/// Places in the question and in the answer of [`crate::InnerStages`], in order.
+#[derive(Clone, Debug)]
+pub(crate) struct StagesPlaces {
+    /// Behind the parameters: times of the stages in the middle and at the end [s], length of the step [s].
+    pub(crate) middle: usize,
+    pub(crate) end: usize,
+    pub(crate) length: usize,
+    /// Coordinates and speeds where the step begins, and their slope there.
+    pub(crate) y: Range<usize>,
+    pub(crate) slope: Range<usize>,
+    /// [`CONTACT_MEMORY`] numbers of every joint with clearance; its radial clearance with its wear [m].
+    pub(crate) memory: Range<usize>,
+    pub(crate) clearances: Range<usize>,
+    /// The largest value that each loop pivot has had.
+    pub(crate) pivots: Range<usize>,
+    /// The slopes of the flat state at the stages, one behind the other: from here on places of the answer.
+    pub(crate) slopes: Range<usize>,
+    /// How regular the loops are at the last stage; the least of all, no number if an answer is infinite or none, zero if a clearance is
+    /// another one.
+    pub(crate) nearness: usize,
+    pub(crate) least_nearness: usize,
+    /// The largest value that each pivot has had then.
+    pub(crate) grown_pivots: Range<usize>,
+}
+
+impl StagesPlaces {
+    pub(crate) fn new(sizes: &Sizes) -> Self {
+        let behind = |first: usize, numbers: usize| first..first + numbers;
+        let (state, middle) = (sizes.coordinates + sizes.speeds, sizes.parameters);
+        let (end, length) = (middle + 1, middle + 2);
+        let y = behind(length + 1, state);
+        let slope = behind(y.end, state);
+        let memory = behind(slope.end, CONTACT_MEMORY * sizes.contacts);
+        let clearances = behind(memory.end, sizes.contacts);
+        let pivots = behind(clearances.end, sizes.rows);
+        let slopes = behind(0, INNER_STAGES * sizes.flat_state());
+        let (nearness, least_nearness) = (slopes.end, slopes.end + 1);
+        let grown_pivots = behind(least_nearness + 1, sizes.rows);
+        Self {
+            middle,
+            end,
+            length,
+            y,
+            slope,
+            memory,
+            clearances,
+            pivots,
+            slopes,
+            nearness,
+            least_nearness,
+            grown_pivots,
+        }
+    }
+
+    /// Length of the question.
+    pub(crate) fn question(&self) -> usize {
+        self.pivots.end
+    }
+
+    /// Length of the answer.
+    pub(crate) fn answer(&self) -> usize {
+        self.grown_pivots.end
     }
 }
 

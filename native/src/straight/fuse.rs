@@ -18,6 +18,8 @@ pub(crate) enum Part {
     Conclude,
     /// [`linkwear_runtime::WithLaws::derivative`].
     Derivative,
+    /// [`linkwear_runtime::InnerStages`].
+    Stages,
 }
 
 impl Part {
@@ -27,6 +29,7 @@ impl Part {
             Self::Attempt => "attempt",
             Self::Conclude => "conclude",
             Self::Derivative => "derivative",
+            Self::Stages => "stages",
         }
     }
 }
@@ -44,12 +47,14 @@ pub(crate) fn fuse(tapes: &[Tape], plan: &StepPlan, part: Part) -> Result<Lowere
         Part::Attempt => plan.question(),
         Part::Conclude => plan.arena(),
         Part::Derivative => plan.derivative_question(),
+        Part::Stages => plan.stages_question(),
     };
     let inputs = inputs(&recorder, count);
     let outputs = match part {
         Part::Attempt => plan.attempt(evaluate, &inputs),
         Part::Conclude => plan.conclude(evaluate, &inputs),
         Part::Derivative => plan.derivative(evaluate, &inputs),
+        Part::Stages => plan.stages(evaluate, &inputs),
     };
     let (first, outputs) = (recorder.ids(answers.into_inner()), recorder.ids(outputs));
     Ok(Lowered { graph: recorder.into_graph(), inputs: count, first, outputs })

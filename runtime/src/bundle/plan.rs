@@ -9,8 +9,8 @@ use crate::contact::Course;
 use crate::description::Description;
 use crate::error::SetupError;
 use crate::flat_laws::{
-    CONTACT_ANSWER, CONTACT_MEMORY, LawsPlaces, PENETRATION, TOUCHING, contact_answer, in_words,
-    round_response, total_rates, worn_clearance,
+    CONTACT_ANSWER, CONTACT_MEMORY, LawsPlaces, PENETRATION, StagesPlaces, TOUCHING, contact_answer,
+    in_words, round_response, total_rates, worn_clearance,
 };
 use crate::integrate::{PARTS, error_of, floored, growth_of, relative_error, step_of};
 use crate::joint_laws::Response;
@@ -52,6 +52,8 @@ struct Slope<T> {
     /// What the laws say of every joint, and its [`crate::flat_laws::CONTACT_ANSWER`] numbers.
     responses: Vec<Response<T>>,
     contacts: Vec<T>,
+    /// Radial clearance of every joint with its wear [m].
+    clearances: Vec<T>,
 }
 
 /// What the equations and the laws say at a state.
@@ -126,7 +128,7 @@ impl StepPlan {
             let t = if part == 1.0 { one(at.end) } else { one(at.begin) + factor };
             let before = &slopes[slopes.len() - 1];
             let state: Vec<T> = y.iter().zip(before).map(|(y, slope)| *y + factor * *slope).collect();
-            let slope = self.slope(evaluate, question, t, &state);
+            let slope = self.slope(evaluate, (question, &question[at.memory.clone()]), t, &state);
             nearness = note_pivots(&slope.pivots, &mut pivots);
             least = T::select(nearness.lt(least), nearness, least);
             nothing = none_of(nothing, &slope.forces);
@@ -152,7 +154,7 @@ impl StepPlan {
     pub fn conclude<T: Scalar>(&self, evaluate: Evaluate<'_, T>, arena: &[T]) -> Vec<T> {
         let (at, one) = (&self.places, |place: usize| arena[place]);
         let (y, next, t) = (&arena[at.y.clone()], &arena[at.next.clone()], one(at.end));
-        let slope = self.slope(evaluate, arena, t, next);
+        let slope = self.slope(evaluate, (arena, &arena[at.memory.clone()]), t, next);
         let energy = evaluate(Entry::Energy, &self.ask(arena, t, next));
         let mut pivots = arena[at.grown_pivots.clone()].to_vec();
         let nearness = note_pivots(&slope.pivots, &mut pivots);
@@ -265,6 +267,44 @@ impl StepPlan {
         answer
     }
 
+    /// Stages within a step of the classical Runge-Kutta method: their slopes of the flat state, one behind the other; how regular loops
+    /// are at the last one, and the least of all, which is no number if an answer is infinite or none, and zero if a clearance is
+    /// another one; the largest pivots then. In: parameters, times in the middle and at the end [s], length of the step [s]; coordinates
+    /// and speeds, their slopes; of every joint as [`Self::derivative`] wants it, then its radial clearance with its wear [m] as known;
+    /// the largest pivots so far.
+    pub fn stages<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
+        let (at, one) = (StagesPlaces::new(&self.sizes), |place: usize| question[place]);
+        let (y, memory) = (&question[at.y.clone()], &question[at.memory.clone()]);
+        let mut before = question[at.slope.clone()].to_vec();
+        let mut pivots = question[at.pivots.clone()].to_vec();
+        let (yes, no) = (T::constant(1.0), T::constant(0.0));
+        let (mut nearness, mut least, mut nothing) = (yes, yes, no);
+        let mut slopes = Vec::with_capacity(at.answer());
+        for part in PARTS {
+            let factor = T::constant(part) * one(at.length);
+            let t = one(if part == 1.0 { at.end } else { at.middle });
+            let state: Vec<T> = y.iter().zip(&before).map(|(y, slope)| *y + factor * *slope).collect();
+            let slope = self.slope(evaluate, (question, memory), t, &state);
+            nearness = note_pivots(&slope.pivots, &mut pivots);
+            least = T::select(nearness.lt(least), nearness, least);
+            for (now, known) in slope.clearances.iter().zip(&question[at.clearances.clone()]) {
+                let at_least = T::select(now.lt(*known), no, least);
+                least = T::select(known.lt(*now), no, at_least);
+            }
+            nothing = none_of(none_of(nothing, &slope.forces), &slope.state[self.sizes.coordinates..]);
+            slopes.extend(&slope.state);
+            before = slope.state;
+        }
+        let answer = [slopes, vec![nearness, least + nothing], pivots].concat();
+        debug_assert_eq!(answer.len(), at.answer());
+        answer
+    }
+
+    /// Length of the question of [`Self::stages`].
+    pub fn stages_question(&self) -> usize {
+        StagesPlaces::new(&self.sizes).question()
+    }
+
     /// Length of the question of [`Self::derivative`].
     pub fn derivative_question(&self) -> usize {
         self.sizes.input(Entry::Contacts) + CONTACT_MEMORY * self.sizes.contacts
@@ -292,10 +332,15 @@ impl StepPlan {
         }
     }
 
-    /// The derivative of a flat state, laws of contact in the middle.
-    fn slope<T: Scalar>(&self, evaluate: Evaluate<'_, T>, arena: &[T], t: T, state: &[T]) -> Slope<T> {
-        let question = self.ask(arena, t, state);
-        let answer = self.answer(evaluate, &question, &arena[self.places.memory.clone()]);
+    /// The derivative of a flat state, laws of contact in the middle. In: parameters and what may stand behind them, memories.
+    fn slope<T: Scalar>(
+        &self,
+        evaluate: Evaluate<'_, T>,
+        (arena, memory): (&[T], &[T]),
+        t: T,
+        state: &[T],
+    ) -> Slope<T> {
+        let answer = self.answer(evaluate, &self.ask(arena, t, state), memory);
         let (rates, rest) = answer.equations.split_at(self.sizes.coordinates + self.sizes.speeds);
         let (rest, powers) = rest.split_at(rest.len() - WORKS);
         let (forces, pivots) = rest.split_at(rest.len() - self.sizes.rows);
@@ -305,6 +350,7 @@ impl StepPlan {
             pivots: pivots.to_vec(),
             responses: answer.responses,
             contacts: answer.contacts,
+            clearances: answer.clearances,
         }
     }
 

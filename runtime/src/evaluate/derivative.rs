@@ -5,9 +5,10 @@
 use super::answers::Forward;
 use super::inside::Inside;
 use super::questions::Questions;
+use super::stages::StagesAnswer;
 use crate::clearance_joint::Clearances;
-use crate::linear::same_bits;
-use crate::system::{CONTACT_MOTION, Entry, Sizes, WORKS, WithLaws};
+use crate::linear::replace;
+use crate::system::{CONTACT_MOTION, Entry, Sizes, StagesOf, WORKS, WithLaws};
 
 /// The last answer of [`Entry::Derivative`] with its input.
 pub(super) struct Derivative<'a> {
@@ -54,12 +55,11 @@ impl<'a> Derivative<'a> {
         clearances: &mut Clearances,
         (t, q, v): (f64, &[f64], &[f64]),
     ) {
-        let known = self.is_at(t, q, v);
+        let known = self.move_to(questions, (t, q, v));
         if known && self.has_contacts && !clearances.has_changed() {
             return;
         }
         if !known {
-            self.move_to(questions, (t, q, v));
             // It costs no more than motions and laws one after the other, and who asks for contacts mostly asks for accelerations next.
             if self.answer_inside(clearances) {
                 return;
@@ -75,8 +75,7 @@ impl<'a> Derivative<'a> {
         self.has_contacts = true;
         clearances.evaluate(&contacts[..CONTACT_MOTION * self.sizes.contacts]);
         // What contacts remember, and how far they are worn, changes at the same state.
-        self.has_answer = self.has_answer && same_bits(wrenches, clearances.wrenches());
-        wrenches.copy_from_slice(clearances.wrenches());
+        self.has_answer &= replace(wrenches, clearances.wrenches());
     }
 
     /// Other values of the parameters.
@@ -99,7 +98,7 @@ impl<'a> Derivative<'a> {
     ) {
         if self.sizes.contacts > 0 {
             self.contacts(questions, clearances, (t, q, v));
-        } else if !self.is_at(t, q, v) {
+        } else {
             self.move_to(questions, (t, q, v));
         }
         if !self.has_answer {
@@ -115,36 +114,37 @@ impl<'a> Derivative<'a> {
         let Some(inside) = &mut self.inside else { return false };
         let done = inside.derivative(&mut self.input[..self.wrenches_end], &mut self.output, clearances);
         if done {
-            self.input[self.state_end..self.wrenches_end].copy_from_slice(clearances.wrenches());
+            replace(&mut self.input[self.state_end..self.wrenches_end], clearances.wrenches());
             (self.has_contacts, self.has_answer) = (true, true);
         }
         done
     }
 
-    #[inline]
-    fn is_at(&self, t: f64, q: &[f64], v: &[f64]) -> bool {
-        let known = self.has_contacts || self.has_answer;
-        // Other stages of a step mostly have another time.
-        known && self.input[self.sizes.parameters].to_bits() == t.to_bits() && self.has_state(q, v)
-    }
-
-    fn has_state(&self, q: &[f64], v: &[f64]) -> bool {
-        let state = &self.input[self.sizes.parameters + 1..self.state_end];
-        let (coordinates, speeds) = state.split_at(q.len());
-        // Or they differ from the first number on.
-        let first = |all: &[f64]| all.first().map(|x| x.to_bits());
-        first(coordinates) == first(q) && same_bits(coordinates, q) && same_bits(speeds, v)
-    }
-
-    fn move_to(&mut self, questions: &mut Questions<'_>, (t, q, v): (f64, &[f64], &[f64])) {
-        let inputs = questions.inputs.clone();
-        self.input[inputs].copy_from_slice(questions.inputs_at(t));
+    /// Whether it was there, so that what is known still holds.
+    fn move_to(&mut self, questions: &mut Questions<'_>, (t, q, v): (f64, &[f64], &[f64])) -> bool {
         let state = &mut self.input[self.sizes.parameters..self.state_end];
-        state[0] = t;
-        let (coordinates, speeds) = state[1..].split_at_mut(q.len());
-        coordinates.copy_from_slice(q);
-        speeds.copy_from_slice(v);
+        let (time, state) = state.split_at_mut(1);
+        let (coordinates, speeds) = state.split_at_mut(q.len());
+        let same = [replace(time, &[t]), replace(coordinates, q), replace(speeds, v)];
+        if (self.has_contacts || self.has_answer) && same == [true; 3] {
+            return true;
+        }
+        let inputs = questions.inputs.clone();
+        if !inputs.is_empty() {
+            self.input[inputs].copy_from_slice(questions.inputs_at(t));
+        }
         (self.has_motions, self.has_contacts, self.has_answer) = (false, false, false);
+        false
+    }
+
+    /// See [`super::Evaluator::inner_stages`].
+    pub(super) fn inner_stages(
+        &mut self,
+        parameters: &[f64],
+        clearances: &Clearances,
+        step: (&StagesOf<'_>, &[f64]),
+    ) -> Option<StagesAnswer<'_>> {
+        self.inside.as_mut()?.stages.evaluate(parameters, clearances, step)
     }
 
     /// Accelerations, multipliers, drive forces, pivots.

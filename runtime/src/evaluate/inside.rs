@@ -1,6 +1,7 @@
 //! A derivative by one call of code that has the laws of contact inside. In: a state, what contacts remember. Out: the derivative,
 //! the contacts. Never knows which states follow each other.
 
+use super::stages::Stages;
 use crate::clearance_joint::{Clearances, ContactState};
 use crate::flat_laws::{CONTACT_MEMORY, LawsPlaces, contact_memory, contact_state};
 use crate::system::{Entry, Sizes, TOTALS, WithLaws};
@@ -13,6 +14,7 @@ pub(super) struct Inside<'a> {
     memories_end: usize,
     places: LawsPlaces,
     workspace: Vec<f64>,
+    pub(super) stages: Stages<'a>,
 }
 
 impl<'a> Inside<'a> {
@@ -24,6 +26,7 @@ impl<'a> Inside<'a> {
             memories_end: state_end + CONTACT_MEMORY * sizes.contacts,
             places: LawsPlaces::new(&sizes),
             workspace: vec![0.0; code.workspace()],
+            stages: Stages::new(&sizes, code),
         }
     }
 

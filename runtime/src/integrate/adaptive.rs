@@ -7,7 +7,7 @@
 use super::problem::Problem;
 use super::step_control::{self, StepControl, floored};
 use crate::error::RunError;
-use crate::linear::combine;
+use crate::linear::{combine, largest_of};
 use crate::scalar::Scalar;
 
 /// What is left of a step that failed, however large its error.
@@ -125,6 +125,7 @@ pub struct Adaptive<M> {
     y: Vec<f64>,
     next: Vec<f64>,
     error: Vec<f64>,
+    scales: Vec<f64>,
     /// Why a longer step failed, and where: the reason to give if steps get too short before that.
     trouble: Option<(f64, RunError)>,
 }
@@ -149,6 +150,7 @@ impl<M: Method> Adaptive<M> {
             y: y.to_vec(),
             next: zero(),
             error: zero(),
+            scales: zero(),
             trouble: None,
         };
         adaptive.method.begin(problem, t, &adaptive.y)?;
@@ -267,22 +269,30 @@ impl<M: Method> Adaptive<M> {
     fn attempt(&mut self, problem: &mut dyn Problem, length: f64, end: f64) -> Result<Estimate, RunError> {
         let step = Step { t: self.control.t(), y: &self.y, length, end };
         self.method.attempt(problem, step, (&mut self.next, &mut self.error))?;
-        let mut estimate = self.estimate(problem, length, 0.0);
+        problem.write_scales(&mut self.scales);
+        let mut estimate = self.estimate(length, 0.0);
         if estimate.is_ok_and(|estimate| estimate.error > 1.0) {
             let noise = self.method.noise(problem, step, &self.next);
             if noise > 0.0 {
-                estimate = self.estimate(problem, length, noise);
+                estimate = self.estimate(length, noise);
             }
         }
         estimate.map_err(|worst| RunError::NonFinite { t: end, what: problem.name(worst) })
     }
 
     /// Error of the last step tried, with `noise` in the estimate; the component, if one is not a number.
-    fn estimate(&self, problem: &dyn Problem, step: f64, noise: f64) -> Result<Estimate, usize> {
+    fn estimate(&self, step: f64, noise: f64) -> Result<Estimate, usize> {
+        let ends = self.y.iter().zip(&self.next).zip(self.scales.iter().zip(&self.error));
+        let errors = ends.map(|((y, next), (scale, error))| {
+            relative_error((*y, *next, *scale), (step, *error), self.tolerance)
+        });
+        // Most steps count, and nobody asks which component was nearest to forbid it.
+        let error = largest_of(errors.clone());
         let mut most = Estimate { error: 0.0, worst: 0, noisy: false };
-        for i in 0..self.y.len() {
-            let ends = (self.y[i], self.next[i], problem.scale(i));
-            let error = relative_error(ends, (step, self.error[i]), self.tolerance);
+        if error <= 1.0 {
+            return Ok(Estimate { error, ..most });
+        }
+        for (i, error) in errors.enumerate() {
             if error.is_nan() {
                 return Err(i);
             }

@@ -1,6 +1,7 @@
 //! What an explicit method integrates.
 
 use crate::error::RunError;
+use crate::system::{INNER_STAGES, StagesOf};
 
 /// Writes the derivative at each of several times and states, one behind the other.
 pub(crate) fn one_by_one(
@@ -33,6 +34,13 @@ pub trait Problem {
         derivatives: &mut [f64],
     ) -> Result<(), RunError> {
         one_by_one((times, states), derivatives, |t, y, derivative| self.derivative(t, y, derivative))
+    }
+
+    /// Writes the slopes of the stages within a step of the classical Runge-Kutta method, if it can evaluate them at once. Whether it
+    /// did: if not, they are asked for one by one.
+    fn inner_stages(&mut self, step: &StagesOf<'_>, slopes: [&mut [f64]; INNER_STAGES]) -> bool {
+        let _ = (step, slopes);
+        false
     }
 
     /// Puts the result `y` of a step from `before` onto the constraints.
@@ -69,6 +77,11 @@ pub trait Problem {
     fn scale(&self, index: usize) -> f64 {
         let _ = index;
         1.0
+    }
+
+    /// Writes [`Self::scale`] of every component, in order: one call for all.
+    fn write_scales(&self, scales: &mut [f64]) {
+        scales.iter_mut().enumerate().for_each(|(index, scale)| *scale = self.scale(index));
     }
 
     /// How many of the `dimension` components the slopes depend on, those at the begin; the others are plain integrals.

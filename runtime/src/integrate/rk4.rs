@@ -2,7 +2,8 @@
 
 use super::problem::Problem;
 use crate::error::RunError;
-use crate::runge_kutta::rk4;
+use crate::runge_kutta::{advance, inner_stages};
+use crate::system::StagesOf;
 
 /// Storage of the four stages.
 #[derive(Clone, Debug)]
@@ -29,14 +30,15 @@ impl Rk4 {
         step: f64,
     ) -> Result<(), RunError> {
         let Self { slopes, stage } = self;
-        let slopes = slopes.each_mut().map(Vec::as_mut_slice);
-        rk4::<RunError>((t, step), y, stage, slopes, &mut |stage, t, y, slope| {
-            problem.derivative(t, y, slope)?;
-            if stage == 0 {
-                problem.reached(t, y, slope);
-            }
-            Ok(())
-        })?;
+        let [k1, k2, k3, k4] = slopes.each_mut().map(Vec::as_mut_slice);
+        problem.derivative(t, y, k1)?;
+        problem.reached(t, y, k1);
+        let stages = StagesOf { times: [t + 0.5 * step, t + step], length: step, y, slope: k1 };
+        if !problem.inner_stages(&stages, [&mut *k2, &mut *k3, &mut *k4]) {
+            let slopes = (&*k1, [&mut *k2, &mut *k3, &mut *k4]);
+            inner_stages((t, step), y, stage, slopes, &mut |t, y, slope| problem.derivative(t, y, slope))?;
+        }
+        advance(stage, y, step, [k1, k2, k3, k4]);
         problem.project(t + step, y, stage)?;
         y.copy_from_slice(stage);
         Ok(())

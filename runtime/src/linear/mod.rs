@@ -19,4 +19,4 @@ pub use gram::{factor_gram, solve_gram};
 pub use lu::Lu;
 #[cfg(feature = "std")]
 pub use orthogonal::Orthogonal;
-pub use vector::{add_scaled, combine, dot, is_finite, largest, largest_of, same_bits};
+pub use vector::{add_scaled, combine, dot, is_finite, largest, largest_of, replace};

@@ -14,7 +14,7 @@ use crate::clearance_joint::ContactState;
 use crate::dynamics::Dynamics;
 use crate::error::RunError;
 use crate::ledger::{Energies, sum};
-use crate::linear::{add_scaled, is_finite, largest};
+use crate::linear::{add_scaled, is_finite, largest, replace};
 use crate::projection::{Correction, POSITION_TOLERANCE, Projector};
 pub(super) use crate::regularity::PROJECTED_STAGES;
 use crate::tables::Motion;
@@ -350,11 +350,16 @@ impl<'a> ConstrainedMotion<'a> {
         self.contact_powers(&mut powers[WORKS..]);
     }
 
-    fn contact_powers(&self, powers: &mut [f64]) {
+    /// Whether all are numbers, and none is infinite.
+    fn contact_powers(&self, powers: &mut [f64]) -> bool {
         let touches = self.dynamics.evaluator.clearances().contacts();
+        let mut finite = true;
         for (powers, touch) in powers.as_chunks_mut::<TOTALS>().0.iter_mut().zip(touches) {
-            *powers = [touch.wear_power, touch.depth_rate, touch.normal_force, touch.loss];
+            let rates = [touch.wear_power, touch.depth_rate, touch.normal_force, touch.loss];
+            finite &= is_finite(&rates);
+            *powers = rates;
         }
+        finite
     }
 
     /// Whether what a projection did to the end of a step, kept in `stage` as it was, is as small as errors of a step are.
@@ -385,17 +390,19 @@ impl<'a> ConstrainedMotion<'a> {
     /// Writes rates of coordinates, accelerations of the last forward dynamics, and powers.
     fn write_derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError> {
         let (state, work) = derivative.split_at_mut(self.first_integral());
-        if let Some((rates, powers)) = self.dynamics.evaluator.last_derivative() {
-            state.copy_from_slice(rates);
-            work[..WORKS].copy_from_slice(&powers);
-            self.contact_powers(&mut work[WORKS..]);
+        let finite = if let Some((rates, powers)) = self.dynamics.evaluator.last_derivative() {
+            let (of_all, of_contacts) = work.split_at_mut(WORKS);
+            replace(state, rates);
+            of_all.copy_from_slice(&powers);
+            is_finite(&powers) & self.contact_powers(of_contacts)
         } else {
             let (q, v, _) = self.split(y);
             let (coordinates, accelerations) = state.split_at_mut(self.coordinates);
             accelerations.copy_from_slice(self.dynamics.evaluator.last_forward().accelerations);
             self.powers(t, q, v, coordinates, work);
-        }
-        if is_finite(work) { Ok(()) } else { Err(infinite_power(t)) }
+            is_finite(work)
+        };
+        if finite { Ok(()) } else { Err(infinite_power(t)) }
     }
 }
 

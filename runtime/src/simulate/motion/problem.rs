@@ -6,6 +6,7 @@ use super::{
 };
 use crate::error::RunError;
 use crate::integrate::{Problem, one_by_one};
+use crate::system::{INNER_STAGES, StagesOf};
 use crate::tables::Motion;
 
 impl Problem for ConstrainedMotion<'_> {
@@ -47,6 +48,10 @@ impl Problem for ConstrainedMotion<'_> {
         self.dynamics.resume(aside);
         self.dynamics.evaluations += times.len() as u64;
         outcome
+    }
+
+    fn inner_stages(&mut self, step: &StagesOf<'_>, slopes: [&mut [f64]; INNER_STAGES]) -> bool {
+        self.dynamics.inner_stages(step, slopes)
     }
 
     fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {
