@@ -8,6 +8,8 @@ use crate::id::ExprId;
 
 /// Slots of a small table.
 const FEWEST: usize = 256;
+/// Slots of a large one: a quarter of a megabyte.
+const MANY: usize = 1 << 15;
 
 /// A large odd number without pattern, by which products fill all high bits.
 const MIX: u64 = 0x9E37_79B9_7F4A_7C15;
@@ -70,9 +72,11 @@ impl Interned {
         self.used += 1;
     }
 
-    /// Four times as many slots: a derivation makes some ten thousand nodes.
+    /// Four times as many slots while they are few, for a derivation makes some ten thousand nodes; then twice as many: every page of
+    /// them is new memory.
     fn grow(&mut self) {
-        let slots = vec![0; (4 * self.slots.len()).max(FEWEST)];
+        let times = if self.slots.len() < MANY { 4 } else { 2 };
+        let slots = vec![0; (times * self.slots.len()).max(FEWEST)];
         let last = slots.len() - 1;
         self.rest = u64::BITS - slots.len().trailing_zeros();
         for known in std::mem::replace(&mut self.slots, slots) {

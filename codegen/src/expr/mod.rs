@@ -48,10 +48,10 @@ pub struct Graph {
     /// Shared with copies, which add none.
     sections: Arc<Vec<String>>,
     /// Index of every section by its title.
-    section_by_title: Arc<FxHashMap<String, usize>>,
+    section_by_title: Arc<FxHashMap<String, u32>>,
     /// Index of the section of every node.
-    section_of: Vec<usize>,
-    current_section: usize,
+    section_of: Vec<u32>,
+    current_section: u32,
     /// Zero, once there is one: it is asked for more often than all else.
     zero: Option<ExprId>,
     /// Nodes that came after the limit.
@@ -140,19 +140,19 @@ impl Graph {
             self.current_section = *known;
             return;
         }
-        self.current_section = self.sections.len();
+        self.current_section = u32::try_from(self.sections.len()).unwrap_or(u32::MAX);
         Arc::make_mut(&mut self.section_by_title).insert(title.clone(), self.current_section);
         Arc::make_mut(&mut self.sections).push(title);
     }
 
     /// Title of the section in which a node was first made.
     pub fn section(&self, id: ExprId) -> &str {
-        self.sections.get(self.section_index(id)).map_or("", String::as_str)
+        self.sections.get(self.section_index(id) as usize).map_or("", String::as_str)
     }
 
     /// The same section as a number.
     #[inline]
-    pub fn section_index(&self, id: ExprId) -> usize {
+    pub fn section_index(&self, id: ExprId) -> u32 {
         self.section_of[id.index()]
     }
 

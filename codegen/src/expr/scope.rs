@@ -11,7 +11,7 @@ pub struct Scope(RefCell<Graph>);
 
 /// A section of a graph under construction.
 #[derive(Clone, Copy, Debug)]
-pub struct Section(usize);
+pub struct Section(u32);
 
 impl Scope {
     /// An empty graph.

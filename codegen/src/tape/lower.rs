@@ -109,9 +109,9 @@ struct Lowerer<'a> {
     /// By node, the statement that defines it.
     defined: Vec<Option<u32>>,
     /// Sections of the graph as those of the tape.
-    sections: FxHashMap<usize, usize>,
+    sections: FxHashMap<u32, usize>,
     /// The same of the last statement, which most others follow in.
-    last_section: Option<(usize, usize)>,
+    last_section: Option<(u32, usize)>,
     tape: Tape,
 }
 
