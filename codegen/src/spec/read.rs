@@ -70,14 +70,10 @@ impl<'de> IntoDeserializer<'de, Failure> for Reader<'_, '_> {
 }
 
 impl Reader<'_, '_> {
-    fn visit<'de, V: Visitor<'de>>(
-        self,
-        fields: Option<&'static [&'static str]>,
-        visitor: V,
-    ) -> Result<V::Value, Failure> {
+    fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
         let Self { value, notes } = self;
         let result = match value.get_ref() {
-            DeValue::Table(table) => visitor.visit_map(Entries::new(table, fields, notes)),
+            DeValue::Table(table) => visitor.visit_map(Entries::new(table, None, notes)),
             DeValue::Array(items) => {
                 visitor.visit_seq(SeqDeserializer::new(items.iter().map(|value| Reader { value, notes })))
             }
@@ -91,9 +87,25 @@ impl Reader<'_, '_> {
                 Ok(value) => visitor.visit_f64(value),
                 Err(_) => Err(Failure::custom("a number that cannot be read")),
             },
-            DeValue::Datetime(_) => Err(Failure::invalid_type(Unexpected::Other("a date or time"), &visitor)),
+            other @ DeValue::Datetime(_) => Err(Failure::invalid_type(unexpected(other), &visitor)),
         };
         result.map_err(|failure| failure.or_at(extent(value)))
+    }
+}
+
+/// What was found where something else is needed.
+fn unexpected<'v>(value: &'v DeValue<'_>) -> Unexpected<'v> {
+    match value {
+        DeValue::Table(_) => Unexpected::Map,
+        DeValue::Array(_) => Unexpected::Seq,
+        DeValue::String(text) => Unexpected::Str(text),
+        DeValue::Boolean(value) => Unexpected::Bool(*value),
+        DeValue::Integer(number) => i64::from_str_radix(number.as_str(), number.radix())
+            .map_or(Unexpected::Other("an integer"), Unexpected::Signed),
+        DeValue::Float(number) => {
+            number.as_str().parse().map_or(Unexpected::Other("a number"), Unexpected::Float)
+        }
+        DeValue::Datetime(_) => Unexpected::Other("a date or time"),
     }
 }
 
@@ -101,7 +113,7 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
     type Error = Failure;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
-        self.visit(None, visitor)
+        self.visit(visitor)
     }
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
         visitor.visit_some(self)
@@ -115,7 +127,13 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Failure> {
-        self.visit(Some(fields), visitor)
+        let Self { value, notes } = self;
+        let result = match value.get_ref() {
+            DeValue::Table(table) => visitor.visit_map(Entries::new(table, Some(fields), notes)),
+            // A list would be read by the order of the fields in our source, which is nobody's business.
+            other => Err(Failure::invalid_type(unexpected(other), &visitor)),
+        };
+        result.map_err(|failure| failure.or_at(extent(value)))
     }
     fn deserialize_tuple_struct<V: Visitor<'de>>(
         self,
@@ -124,7 +142,7 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
         visitor: V,
     ) -> Result<V::Value, Failure> {
         if name != WITH_SPAN {
-            return self.visit(None, visitor);
+            return self.visit(visitor);
         }
         let span = extent(self.value);
         visitor.visit_seq(Parts { head: vec![span.end, span.start], value: Some(self) })
@@ -140,7 +158,7 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
                 let text: StrDeserializer<'_, Failure> = text.as_ref().into_deserializer();
                 return visitor.visit_enum(text).map_err(|failure| failure.or_at(extent(self.value)));
             }
-            _ if name != BY_FORM => return self.visit(None, visitor),
+            _ if name != BY_FORM => return self.visit(visitor),
             DeValue::Table(_) => "table",
             DeValue::Array(_) => "list",
             _ => "scalar",
