@@ -187,7 +187,7 @@ impl<'m, S: System<f64>> FixedStep<'m, S> {
         let mut nearness = self.slope(parameters, t, y, k1)?;
         self.note_depths();
         let within = (&*k1, [&mut *k2, &mut *k3, &mut *k4]);
-        inner_stages((t, length), y, stage, within, &mut |t, y, slope| {
+        inner_stages(([t + 0.5 * length, t + length], length), y, stage, within, &mut |t, y, slope| {
             nearness = self.slope(parameters, t, y, slope)?;
             Ok(())
         })?;

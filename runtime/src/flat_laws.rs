@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use crate::clearance_joint::{Clearance, ClearanceState, ContactState};
+use crate::clearance_joint::{Clearance, ClearanceState, Clearances, ContactState};
 use crate::contact::{ImpactMemory, Support};
 use crate::joint_laws::Response;
 use crate::scalar::Scalar;
@@ -54,6 +54,21 @@ impl LawsPlaces {
     }
 }
 
+/// Hands out places one behind the other.
+pub(crate) struct Next(pub(crate) usize);
+
+impl Next {
+    pub(crate) fn one(&mut self) -> usize {
+        self.some(1).start
+    }
+
+    pub(crate) fn some(&mut self, count: usize) -> Range<usize> {
+        let start = self.0;
+        self.0 += count;
+        start..self.0
+    }
+}
+
 /// Places in the question and in the answer of [`crate::InnerStages`], in order.
 #[derive(Clone, Debug)]
 pub(crate) struct StagesPlaces {
@@ -81,30 +96,21 @@ pub(crate) struct StagesPlaces {
 
 impl StagesPlaces {
     pub(crate) fn new(sizes: &Sizes) -> Self {
-        let behind = |first: usize, numbers: usize| first..first + numbers;
-        let (state, middle) = (sizes.coordinates + sizes.speeds, sizes.parameters);
-        let (end, length) = (middle + 1, middle + 2);
-        let y = behind(length + 1, state);
-        let slope = behind(y.end, state);
-        let memory = behind(slope.end, CONTACT_MEMORY * sizes.contacts);
-        let clearances = behind(memory.end, sizes.contacts);
-        let pivots = behind(clearances.end, sizes.rows);
-        let slopes = behind(0, INNER_STAGES * sizes.flat_state());
-        let (nearness, least_nearness) = (slopes.end, slopes.end + 1);
-        let grown_pivots = behind(least_nearness + 1, sizes.rows);
+        let state = sizes.coordinates + sizes.speeds;
+        let (mut asked, mut told) = (Next(sizes.parameters), Next(0));
         Self {
-            middle,
-            end,
-            length,
-            y,
-            slope,
-            memory,
-            clearances,
-            pivots,
-            slopes,
-            nearness,
-            least_nearness,
-            grown_pivots,
+            middle: asked.one(),
+            end: asked.one(),
+            length: asked.one(),
+            y: asked.some(state),
+            slope: asked.some(state),
+            memory: asked.some(CONTACT_MEMORY * sizes.contacts),
+            clearances: asked.some(sizes.contacts),
+            pivots: asked.some(sizes.rows),
+            slopes: told.some(INNER_STAGES * sizes.flat_state()),
+            nearness: told.one(),
+            least_nearness: told.one(),
+            grown_pivots: told.some(sizes.rows),
         }
     }
 
@@ -122,6 +128,14 @@ impl StagesPlaces {
 /// The [`CONTACT_MEMORY`] numbers of a joint; `touch`: its contact at any instant of the same wear.
 pub(crate) fn contact_memory(state: &ClearanceState, touch: &ContactState) -> [f64; CONTACT_MEMORY] {
     [state.worn, touch.stiffness, state.memory.touching, state.memory.closing_speed]
+}
+
+/// Writes them for all joints, one behind the other.
+pub(crate) fn write_memories(memories: &mut [f64], clearances: &Clearances) {
+    let joints = clearances.states().iter().zip(clearances.contacts());
+    for (memory, (state, touch)) in memories.as_chunks_mut().0.iter_mut().zip(joints) {
+        *memory = contact_memory(state, touch);
+    }
 }
 
 /// What a round bearing answers to a motion, by the numbers that a question has of it.

@@ -6,23 +6,24 @@ use crate::linear::combine;
 /// Asked for a stage: its time and state in, slope out.
 pub(crate) type Slope<'s, E> = &'s mut dyn FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>;
 
-/// Writes the slopes of the three stages within a step from `y` at `t`, where the slope is `k1`; `stage` is room for a state.
+/// Writes the slopes of the three stages within a step from `y`, where the slope is `k1`; `times` are those of its middle and its end,
+/// `stage` is room for a state.
 ///
 /// # Errors
 /// What `slope` reports.
 pub(crate) fn inner_stages<E>(
-    (t, step): (f64, f64),
+    ([middle, end], step): ([f64; 2], f64),
     y: &[f64],
     stage: &mut [f64],
     (k1, [k2, k3, k4]): (&[f64], [&mut [f64]; 3]),
     slope: Slope<'_, E>,
 ) -> Result<(), E> {
     combine(stage, y, 0.5 * step, k1);
-    slope(t + 0.5 * step, stage, k2)?;
+    slope(middle, stage, k2)?;
     combine(stage, y, 0.5 * step, k2);
-    slope(t + 0.5 * step, stage, k3)?;
+    slope(middle, stage, k3)?;
     combine(stage, y, step, k3);
-    slope(t + step, stage, k4)
+    slope(end, stage, k4)
 }
 
 /// Writes the state at the end of a step from `y`, by the slopes of all stages.

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::{TOTALS, WORKS};
-use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY};
+use crate::flat_laws::{CONTACT_ANSWER, CONTACT_MEMORY, Next};
 use crate::ledger::Ledger;
 use crate::system::{Entry, Sizes};
 
@@ -59,21 +59,6 @@ pub(crate) struct Places {
     pub(crate) closure: Range<usize>,
     /// Length of all.
     pub(crate) all: usize,
-}
-
-/// Hands out places one behind the other.
-struct Next(usize);
-
-impl Next {
-    fn one(&mut self) -> usize {
-        self.some(1).start
-    }
-
-    fn some(&mut self, count: usize) -> Range<usize> {
-        let start = self.0;
-        self.0 += count;
-        start..self.0
-    }
 }
 
 impl Places {

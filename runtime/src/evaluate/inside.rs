@@ -3,7 +3,7 @@
 
 use super::stages::Stages;
 use crate::clearance_joint::{Clearances, ContactState};
-use crate::flat_laws::{CONTACT_MEMORY, LawsPlaces, contact_memory, contact_state};
+use crate::flat_laws::{CONTACT_MEMORY, LawsPlaces, contact_state, write_memories};
 use crate::system::{Entry, Sizes, TOTALS, WithLaws};
 
 /// The code, and what it needs.
@@ -43,11 +43,7 @@ impl<'a> Inside<'a> {
         answer: &mut [f64],
         clearances: &mut Clearances,
     ) -> bool {
-        let (memories, _) = question[self.state_end..self.memories_end].as_chunks_mut::<CONTACT_MEMORY>();
-        let joints = clearances.states().iter().zip(clearances.contacts());
-        for (memory, (state, touch)) in memories.iter_mut().zip(joints) {
-            *memory = contact_memory(state, touch);
-        }
+        write_memories(&mut question[self.state_end..self.memories_end], clearances);
         self.code.derivative(&question[..self.memories_end], answer, &mut self.workspace);
         let known = clearances.contacts().iter().zip(&answer[self.places.clearances.clone()]);
         let is_known = |(touch, clearance): (&ContactState, &f64)| {

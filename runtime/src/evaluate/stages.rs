@@ -2,7 +2,7 @@
 //! the loops were. Never knows what a method makes of them.
 
 use crate::clearance_joint::Clearances;
-use crate::flat_laws::{StagesPlaces, contact_memory};
+use crate::flat_laws::{StagesPlaces, write_memories};
 use crate::linear::replace;
 use crate::system::{InnerStages, Sizes, StagesOf, WithLaws};
 
@@ -61,11 +61,7 @@ impl<'a> Stages<'a> {
         let state = at.y.len();
         replace(&mut question[at.y.clone()], &step.y[..state]);
         replace(&mut question[at.slope.clone()], &step.slope[..state]);
-        let joints = clearances.states().iter().zip(clearances.contacts());
-        let (memories, _) = question[at.memory.clone()].as_chunks_mut();
-        for (memory, (state, touch)) in memories.iter_mut().zip(joints) {
-            *memory = contact_memory(state, touch);
-        }
+        write_memories(&mut question[at.memory.clone()], clearances);
         for (clearance, touch) in question[at.clearances.clone()].iter_mut().zip(clearances.contacts()) {
             *clearance = touch.clearance;
         }

@@ -33,10 +33,13 @@ impl Rk4 {
         let [k1, k2, k3, k4] = slopes.each_mut().map(Vec::as_mut_slice);
         problem.derivative(t, y, k1)?;
         problem.reached(t, y, k1);
-        let stages = StagesOf { times: [t + 0.5 * step, t + step], length: step, y, slope: k1 };
+        let times = [t + 0.5 * step, t + step];
+        let stages = StagesOf { times, length: step, y, slope: k1 };
         if !problem.inner_stages(&stages, [&mut *k2, &mut *k3, &mut *k4]) {
             let slopes = (&*k1, [&mut *k2, &mut *k3, &mut *k4]);
-            inner_stages((t, step), y, stage, slopes, &mut |t, y, slope| problem.derivative(t, y, slope))?;
+            inner_stages((times, step), y, stage, slopes, &mut |t, y, slope| {
+                problem.derivative(t, y, slope)
+            })?;
         }
         advance(stage, y, step, [k1, k2, k3, k4]);
         problem.project(t + step, y, stage)?;

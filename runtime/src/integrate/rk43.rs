@@ -10,7 +10,7 @@ use super::dense::Cubics;
 use super::problem::Problem;
 use super::step_control::SAFETY;
 use crate::error::RunError;
-use crate::linear::combine;
+use crate::runge_kutta::inner_stages;
 use crate::scalar::Scalar;
 use crate::system::StagesOf;
 
@@ -86,13 +86,11 @@ impl Method for Rk43 {
         let [first, b, c, d, _] = &mut self.slopes;
         let times = [step.t + 0.5 * length, step.end];
         let stages = StagesOf { times, length, y: step.y, slope: first };
-        if !problem.inner_stages(&stages, [b, c, d]) {
-            for (stage, part) in (1..).zip(PARTS) {
-                let (known, unknown) = self.slopes.split_at_mut(stage);
-                combine(next, step.y, part * length, &known[stage - 1]);
-                let t = if part == 1.0 { step.end } else { step.t + part * length };
-                problem.derivative(t, next, &mut unknown[0])?;
-            }
+        if !problem.inner_stages(&stages, [&mut *b, &mut *c, &mut *d]) {
+            let slopes = (&**first, [&mut **b, &mut **c, &mut **d]);
+            inner_stages((times, length), step.y, next, slopes, &mut |t, y, slope| {
+                problem.derivative(t, y, slope)
+            })?;
         }
         let [a, b, c, d, end] = &mut self.slopes;
         for (i, (next, y)) in next.iter_mut().zip(step.y).enumerate() {
