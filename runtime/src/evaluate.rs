@@ -23,7 +23,7 @@ use crate::guide::Guide;
 use crate::layout::Layout;
 use crate::row_scales::{note_lengths, scale_rows};
 use crate::signals::Signals;
-use crate::system::{CONTACT_MOTION, Entry, STATES, SideBySide, Sizes, System};
+use crate::system::{CONTACT_MOTION, Entry, STATES, Sizes, System};
 use derivative::Derivative;
 use questions::Questions;
 use sampled::{Sampled, sampled};
@@ -424,9 +424,9 @@ impl<'a> Evaluator<'a> {
         &self.observe(t, q, v)[switches]
     }
 
-    /// What answers [`Self::observe`] for several states at once, if the system has it.
-    pub(crate) fn side_by_side(&self) -> Option<&'a dyn SideBySide<f64>> {
-        self.questions.system.side_by_side()
+    /// What answers the questions.
+    pub(crate) fn system(&self) -> &'a dyn System<f64> {
+        self.questions.system
     }
 
     /// Writes the question of [`Self::observe`] as that of one of several states, but for the parameters.

@@ -10,7 +10,9 @@
 use std::cell::{OnceCell, RefCell};
 use std::rc::Rc;
 
-use crate::expr::{Expr, Mat3, Vec3};
+use rustc_hash::FxHashMap;
+
+use crate::expr::{Expr, ExprId, Mat3, Vec3};
 
 use super::fields::{Fields, Shapes};
 use super::geometry::Geometry;
@@ -42,25 +44,42 @@ pub struct BodyFields<'g> {
     pub asked: Asked,
     /// Wrenches that were made, by the motion of the frame: many ways ask for few of them.
     wrenches: RefCell<Vec<(Frame<'g>, Wrench<'g>)>>,
+    /// Inertial forces of the modes, likewise.
+    forces: RefCell<Vec<(ModalFrame<'g>, Vec<Expr<'g>>)>>,
 }
 
 /// Acceleration of the origin of a frame, its spin, and what the modes know.
 type Frame<'g> = (Vec3<'g>, Mat3<'g>, ByModes<'g>);
 
+/// The same two of a frame, and the accelerations of the modes.
+type ModalFrame<'g> = (Vec3<'g>, Mat3<'g>, Vec<ExprId>);
+
 impl<'g> BodyFields<'g> {
     pub fn new(shapes: &Rc<Shapes<'g>>, fields: Fields<'g>) -> Self {
-        Self { shapes: Rc::clone(shapes), fields, asked: Asked::Nothing, wrenches: RefCell::default() }
+        let (wrenches, forces) = Default::default();
+        Self { shapes: Rc::clone(shapes), fields, asked: Asked::Nothing, wrenches, forces }
+    }
+
+    /// Inertial force of every mode, at accelerations of the modes.
+    fn modal_forces(&self, frame: &Acceleration<'g>, v_dot: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let is_same = |(origin, spin, of): &ModalFrame<'g>| {
+            is_frame(frame, (*origin, spin)) && of.iter().copied().eq(v_dot.iter().map(|entry| entry.id()))
+        };
+        let made = self.forces.borrow().iter().find(|(of, _)| is_same(of)).map(|(_, forces)| forces.clone());
+        made.unwrap_or_else(|| {
+            let forces = self.shapes.forces(&self.fields, frame, v_dot);
+            let of = v_dot.iter().map(|entry| entry.id()).collect();
+            self.forces.borrow_mut().push(((frame.origin, frame.spin, of), forces.clone()));
+            forces
+        })
     }
 
     /// Inertial wrench about the origin of the floating frame.
     fn wrench(&self, frame: &Acceleration<'g>, known: &ByModes<'g>) -> Wrench<'g> {
         let nodes = |known: &ByModes<'g>| known.map(|known| known.map(|known| known.id()));
         let by_modes = nodes(known);
-        let is_same = |(origin, spin, known): &Frame<'g>| {
-            origin.is(frame.origin)
-                && (0..3).all(|row| spin[row].is(frame.spin[row]))
-                && nodes(known) == by_modes
-        };
+        let is_same =
+            |(origin, spin, known): &Frame<'g>| is_frame(frame, (*origin, spin)) && nodes(known) == by_modes;
         let made = self.wrenches.borrow().iter().find(|(of, _)| is_same(of)).map(|(_, wrench)| *wrench);
         made.unwrap_or_else(|| {
             let wrench = self.shapes.wrench(&self.fields, frame, known);
@@ -68,6 +87,11 @@ impl<'g> BodyFields<'g> {
             wrench
         })
     }
+}
+
+/// Whether a frame moves so.
+fn is_frame<'g>(frame: &Acceleration<'g>, (origin, spin): (Vec3<'g>, &Mat3<'g>)) -> bool {
+    origin.is(frame.origin) && (0..3).all(|row| spin[row].is(frame.spin[row]))
 }
 
 /// Shape functions of every flexible body that has such, by link; nothing if none has.
@@ -111,11 +135,21 @@ pub fn all_bias_forces<'g>(
             .map(|axes| {
                 let motion = motion.along(*axes);
                 let fields = fields.get_or_init(|| fields_of(&motion, shapes));
-                bias_forces_by(&motion, masses, loads, (fields, *axes))
+                bias_forces_by(&motion, masses, loads, (fields, *axes, &Inertial::default()))
             })
             .collect::<Vec<_>>()
     });
     forces.collect()
+}
+
+/// Inertial wrenches of links that were made for one motion, by link.
+#[derive(Default)]
+pub struct Inertial<'g>(RefCell<FxHashMap<usize, Wrench<'g>>>);
+
+impl<'g> Inertial<'g> {
+    fn of(&self, link: usize, make: impl FnOnce() -> Wrench<'g>) -> Wrench<'g> {
+        *self.0.borrow_mut().entry(link).or_insert_with(make)
+    }
 }
 
 /// Inertial wrench of a link about its origin, in its frame.
@@ -176,9 +210,9 @@ pub fn bias_forces_by<'g>(
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     loads: &Loads<'g>,
-    (fields, axes): (&[Option<BodyFields<'g>>], Axes),
+    way: (&[Option<BodyFields<'g>>], Axes, &Inertial<'g>),
 ) -> Vec<Expr<'g>> {
-    forces_besides(motion, masses, (loads, &[]), (fields, axes))
+    forces_besides(motion, masses, (loads, &[]), way)
 }
 
 /// The same less what the wrenches of `rows` on each link, in its frame about its origin, leave over.
@@ -186,7 +220,7 @@ pub fn forces_besides<'g>(
     motion: &Motion<'g>,
     masses: &[LinkMass<'g>],
     (loads, rows): (&Loads<'g>, &[Wrench<'g>]),
-    (fields, axes): (&[Option<BodyFields<'g>>], Axes),
+    (fields, axes, made): (&[Option<BodyFields<'g>>], Axes, &Inertial<'g>),
 ) -> Vec<Expr<'g>> {
     let Geometry { g, linkage, .. } = motion.poses.geometry;
     let poses = &motion.poses;
@@ -212,7 +246,7 @@ pub fn forces_besides<'g>(
         };
         let inertial = match by_fields {
             Some(body) => body.wrench(frame, &known),
-            None => inertial_wrench(motion, masses, at),
+            None => made.of(at, || inertial_wrench(motion, masses, at)),
         };
         let applied = loads.external[at] + loads.reactions[at];
         let held = rows.get(at).copied().unwrap_or_else(|| Wrench::zero(g));
@@ -245,7 +279,7 @@ pub fn forces_besides<'g>(
         let mut felt = total.generalised(link.freedom, poses.nodes[at].as_ref());
         if let Some(modal) = &masses[at].modal {
             let deforming = match by_fields {
-                Some(BodyFields { shapes, fields, .. }) => shapes.forces(fields, frame, &modes.v_dot),
+                Some(body) => body.modal_forces(frame, &modes.v_dot),
                 None => modal.modal_forces(&motion.twists[at], frame, modes),
             };
             felt = felt.into_iter().zip(deforming).map(|(held, deforming)| deforming + held).collect();

@@ -174,7 +174,7 @@ impl<'g> Problem<'_, 'g> {
             }
         }
         let felt = if way.rows_push {
-            let fields = (&moving.fields[..], moving.axes);
+            let fields = (&moving.fields[..], moving.axes, &moving.inertial);
             forces_besides(&moving.motion, self.masses, (self.loads, &held), fields)
         } else {
             self.felt(moving).to_vec()

@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 
 use crate::expr::{Expr, ExprId, Scope, Section};
 
-use super::dynamics::{Asked, BodyFields, bias_forces_by, fields_of};
+use super::dynamics::{Asked, BodyFields, Inertial, bias_forces_by, fields_of};
 use super::fields::Shapes;
 use super::kinematics::Acceleration;
 use super::link_mass::LinkMass;
@@ -25,14 +25,21 @@ pub struct Moving<'g> {
     pub motion: Motion<'g>,
     pub fields: Rc<Vec<Option<BodyFields<'g>>>>,
     pub axes: Axes,
+    /// Of the other links what was made of it.
+    pub inertial: Inertial<'g>,
     /// What all speeds feel of it, once asked for.
     felt: OnceCell<Vec<Expr<'g>>>,
 }
 
 impl<'g> Moving<'g> {
+    fn new(motion: Motion<'g>, fields: Rc<Vec<Option<BodyFields<'g>>>>, axes: Axes) -> Self {
+        Self { motion, fields, axes, inertial: Inertial::default(), felt: OnceCell::new() }
+    }
+
     /// What all speeds feel of it.
     pub fn felt(&self, masses: &[LinkMass<'g>], loads: &Loads<'g>) -> &[Expr<'g>] {
-        self.felt.get_or_init(|| bias_forces_by(&self.motion, masses, loads, (&self.fields, self.axes)))
+        let way = (&self.fields[..], self.axes, &self.inertial);
+        self.felt.get_or_init(|| bias_forces_by(&self.motion, masses, loads, way))
     }
 
     /// With the fields of some links made otherwise.
@@ -45,7 +52,7 @@ impl<'g> Moving<'g> {
             fields[link] = Some(by);
         }
         let (motion, axes) = (self.motion.clone(), self.axes);
-        Rc::new(Self { motion, fields: Rc::new(fields), axes, felt: OnceCell::new() })
+        Rc::new(Self::new(motion, Rc::new(fields), axes))
     }
 }
 
@@ -92,7 +99,7 @@ impl<'g> Known<'g> {
                 bodies.filter_map(|(_, body)| body.as_mut()).for_each(|body| body.asked = asked);
                 fields = Rc::new(by_modes);
             }
-            Rc::new(Moving { motion, fields, axes, felt: OnceCell::new() })
+            Rc::new(Moving::new(motion, fields, axes))
         })
     }
 

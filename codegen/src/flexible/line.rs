@@ -155,7 +155,8 @@ impl Line {
     pub fn mass(&self) -> DMatrix<f64> {
         let mut mass = DMatrix::zeros(self.size, self.size);
         self.over_mass(|[inertia, rotary], _, [value, rotation]| {
-            for column in 0..self.size {
+            // Most unknowns belong to other elements.
+            for column in (0..self.size).filter(|column| value[*column] != 0.0 || rotation[*column] != 0.0) {
                 let (factor, turn) = (inertia * value[column], rotary * rotation[column]);
                 let below = [&value, &rotation].map(|rows| &rows.as_slice()[column..]);
                 let entries = &mut mass.as_mut_slice()[column * self.size..][column..self.size];

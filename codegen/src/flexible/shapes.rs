@@ -2,7 +2,9 @@
 //! In: mesh and hold. Out: mass-normalised shapes with fixed signs in a fixed order, and what was left out.
 
 use std::f64::consts::PI;
+use std::thread::available_parallelism;
 
+use linkwear_tape::side_by_side;
 use nalgebra::{DMatrix, DVector};
 
 use super::beam::{Attachment, BeamInput};
@@ -43,13 +45,24 @@ pub struct Truncated {
 
 /// Shapes in the order of the modal coordinates, and what was left out.
 pub fn shapes(input: &BeamInput, mesh: &Mesh) -> Result<(Vec<Shape>, Truncated), BeamError> {
-    let along_y = Plane::new(input, mesh, Family::Y, None)?;
-    let along_z = Plane::new(input, mesh, Family::Z, Some(&along_y))?;
+    let tasks = [
+        Task::plane(input, mesh, Family::Y)?,
+        Task::bar(input, mesh, Family::Axial, input.modes.axial)?,
+        Task::bar(input, mesh, Family::Torsion, input.modes.torsion)?,
+    ];
+    let cores = available_parallelism().map_or(1, usize::from);
+    let solved: [Option<Solved>; 3] =
+        side_by_side(&tasks, cores, Task::solved).try_into().unwrap_or_default();
+    let [bending, axial, torsion] = solved;
+    let [of_y, of_axial, of_torsion] = tasks;
+    let along_y = Plane::new(of_y, bending)?;
+    let of_z = Task::plane(input, mesh, Family::Z)?;
+    let along_z = along_y.turned(&of_z).map_or_else(|| Plane::new(of_z.clone(), of_z.solved()), Ok)?;
     let planes = [along_y, along_z];
     let (y, z) = share(input.modes.bending, &planes[0].modes, &planes[1].modes);
     let mut kept = merge(planes[0].keep(y)?, planes[1].keep(z)?);
-    let (axial_modes, axial) = bar_modes(input, mesh, Family::Axial, input.modes.axial)?;
-    let (torsion_modes, torsion) = bar_modes(input, mesh, Family::Torsion, input.modes.torsion)?;
+    let (axial_modes, axial) = bar_modes(mesh, of_axial, axial, input.modes.axial)?;
+    let (torsion_modes, torsion) = bar_modes(mesh, of_torsion, torsion, input.modes.torsion)?;
     kept.extend(axial_modes);
     kept.extend(torsion_modes);
     let left_out = [planes[0].modes[y].square, planes[1].modes[z].square, axial, torsion];
@@ -89,24 +102,22 @@ fn merge(along_y: Vec<Shape>, along_z: Vec<Shape>) -> Vec<Shape> {
     }
 }
 
-/// One bending plane with its eigenmodes (with Craig-Bampton: of fixed interfaces).
-struct Plane<'a> {
+/// Eigenmodes to be found: they depend on no other family, and take most of the time.
+#[derive(Clone)]
+struct Task<'a> {
     family: Family,
     mesh: &'a Mesh,
-    mass: DMatrix<f64>,
-    /// Orthonormal rows that span the interface motions: held in the fixed-interface modes, and in energy the static shapes.
-    interface: Vec<DVector<f64>>,
-    modes: Vec<Eigenmode>,
+    /// Orthonormal rows that the modes are held in.
+    held: Vec<DVector<f64>>,
+    count: usize,
 }
 
-impl<'a> Plane<'a> {
-    /// `known`: another plane, whose modes this one has if it is equal to the bit, as that of a round section is.
-    fn new(
-        input: &BeamInput,
-        mesh: &'a Mesh,
-        family: Family,
-        known: Option<&Self>,
-    ) -> Result<Self, BeamError> {
+/// A mass matrix and its eigenmodes.
+type Solved = (DMatrix<f64>, Vec<Eigenmode>);
+
+impl<'a> Task<'a> {
+    /// Of a bending plane, with all interfaces held.
+    fn plane(input: &BeamInput, mesh: &'a Mesh, family: Family) -> Result<Self, BeamError> {
         let line = mesh.line(family);
         let attachments = input.attachments();
         let mut rows = vec![];
@@ -120,18 +131,54 @@ impl<'a> Plane<'a> {
                 rows.push(line.station(station, 1).clone());
             }
         }
-        let interface = orthonormal(&rows).ok_or(BeamError::Extreme)?;
-        if let Some(known) = known
-            && known.interface == interface
-            && mesh.line(known.family) == line
-        {
-            let (mass, modes) = (known.mass.clone(), known.modes.clone());
-            return Ok(Self { family, mesh, mass, interface, modes });
-        }
-        let mass = line.mass();
+        let held = orthonormal(&rows).ok_or(BeamError::Extreme)?;
         // One more than can be kept is left out and named.
-        let modes = lowest(&mass, &interface, input.modes.bending + 1).ok_or(BeamError::Extreme)?;
-        Ok(Self { family, mesh, mass, interface, modes })
+        Ok(Self { family, mesh, held, count: input.modes.bending + 1 })
+    }
+
+    /// Of a bar family.
+    fn bar(input: &BeamInput, mesh: &'a Mesh, family: Family, count: usize) -> Result<Self, BeamError> {
+        let line = mesh.line(family);
+        // The anchor holds the first end of a chord. What pulls at the other stretches the bar as one static shape does,
+        // which many eigenmodes of the free end would only approach: it comes first, then modes with both ends held.
+        let last = input.attachments().last().map(|last| line.station(mesh.station(last.x), 0).clone());
+        let far: Vec<DVector<f64>> = last.into_iter().collect();
+        let held = orthonormal(&far).ok_or(BeamError::Extreme)?;
+        let fixed = if held.is_empty() { count } else { count.saturating_sub(1) };
+        Ok(Self { family, mesh, held, count: fixed + 1 })
+    }
+
+    /// `None`: rounding buried them.
+    fn solved(&self) -> Option<Solved> {
+        let mass = self.mesh.line(self.family).mass();
+        let modes = lowest(&mass, &self.held, self.count)?;
+        Some((mass, modes))
+    }
+}
+
+/// One bending plane with its eigenmodes (with Craig-Bampton: of fixed interfaces).
+struct Plane<'a> {
+    family: Family,
+    mesh: &'a Mesh,
+    mass: DMatrix<f64>,
+    /// Orthonormal rows that span the interface motions: held in the fixed-interface modes, and in energy the static shapes.
+    interface: Vec<DVector<f64>>,
+    modes: Vec<Eigenmode>,
+}
+
+impl<'a> Plane<'a> {
+    fn new(Task { family, mesh, held, .. }: Task<'a>, solved: Option<Solved>) -> Result<Self, BeamError> {
+        let (mass, modes) = solved.ok_or(BeamError::Extreme)?;
+        Ok(Self { family, mesh, mass, interface: held, modes })
+    }
+
+    /// Another plane, if it is equal to the bit, as that of a round section is.
+    fn turned(&self, other: &Task<'a>) -> Option<Self> {
+        let is_equal =
+            self.interface == other.held && self.mesh.line(self.family) == other.mesh.line(other.family);
+        let (mass, modes) = (self.mass.clone(), self.modes.clone());
+        let (family, interface) = (other.family, other.held.clone());
+        is_equal.then_some(Self { family, mesh: self.mesh, mass, interface, modes })
     }
 
     /// The first `count` modes; with interfaces, the eigenmodes of what they and the static shapes span.
@@ -168,21 +215,13 @@ fn craig_bampton(
 
 /// Kept modes of a bar family, and the square of the first frequency left out.
 fn bar_modes(
-    input: &BeamInput,
     mesh: &Mesh,
-    family: Family,
+    Task { family, held: far, count: one_more, .. }: Task<'_>,
+    solved: Option<Solved>,
     count: usize,
 ) -> Result<(Vec<Shape>, f64), BeamError> {
-    let line = mesh.line(family);
-    let attachments = input.attachments();
-    let mass = line.mass();
-    // The anchor holds the first end of a chord. What pulls at the other stretches the bar as one static shape does,
-    // which many eigenmodes of the free end would only approach: it comes first, then modes with both ends held.
-    let far: Vec<DVector<f64>> =
-        attachments.last().map(|last| line.station(mesh.station(last.x), 0).clone()).into_iter().collect();
-    let far = orthonormal(&far).ok_or(BeamError::Extreme)?;
-    let fixed = if far.is_empty() { count } else { count.saturating_sub(1) };
-    let mut modes = lowest(&mass, &far, fixed + 1).ok_or(BeamError::Extreme)?;
+    let (mass, mut modes) = solved.ok_or(BeamError::Extreme)?;
+    let fixed = one_more - 1;
     let truncated = modes[fixed].square;
     modes.truncate(fixed);
     if count > 0 && !far.is_empty() {

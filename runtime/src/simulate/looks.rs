@@ -5,7 +5,7 @@ use super::extremes::Collector;
 use super::slopes::Slopes;
 use crate::clearance_joint::Channels;
 use crate::evaluate::Evaluator;
-use crate::system::{Entry, STATES, SideBySide};
+use crate::system::{Entry, STATES, SideBySide, System};
 
 /// Looks that wait.
 pub(super) struct Looks<'a> {
@@ -24,8 +24,12 @@ pub(super) struct Looks<'a> {
 
 impl<'a> Looks<'a> {
     /// For so many columns; none if the system observes one state after the other.
-    pub(super) fn new(evaluator: &Evaluator<'a>, columns: usize) -> Option<Self> {
-        let (observer, sizes) = (evaluator.side_by_side()?, evaluator.sizes());
+    pub(super) fn new(
+        system: &'a dyn System<f64>,
+        evaluator: &Evaluator<'_>,
+        columns: usize,
+    ) -> Option<Self> {
+        let (observer, sizes) = (system.side_by_side()?, evaluator.sizes());
         let mut question = vec![[0.0; STATES]; sizes.input(Entry::Observe)];
         for (place, value) in question.iter_mut().zip(evaluator.parameters()) {
             *place = [*value; STATES];
@@ -38,7 +42,7 @@ impl<'a> Looks<'a> {
             generated: sizes.channels,
             columns: vec![[0.0; STATES]; columns],
             workspace: vec![[0.0; STATES]; observer.workspace()],
-            slopes: Slopes::new(evaluator),
+            slopes: Slopes::new(observer, evaluator),
         })
     }
 

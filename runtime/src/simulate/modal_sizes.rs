@@ -34,7 +34,7 @@ impl ModalSizes {
             let value = q[coordinate];
             let mut at = |value| {
                 q[coordinate] = value;
-                evaluator.accelerations(t, &q, v).values[speed]
+                evaluator.forward(t, &q, v).accelerations[speed]
             };
             let stiffness = (at(value - DIFFERENCE) - at(value + DIFFERENCE)) / (2.0 * DIFFERENCE);
             q[coordinate] = value;

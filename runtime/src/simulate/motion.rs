@@ -35,6 +35,9 @@ const LEFT_OPEN: f64 = 1e-5;
 /// Rounding may be this many times what one sample of it shows: 27 was seen with forty loops in a row.
 const SAMPLED: f64 = 100.0;
 
+/// Times that slopes of several states are told one by one: as many take about as long as to write code for several at once.
+const ASKED_ALONE: u32 = 200;
+
 /// Energies smaller than this [J] are noise to the step control.
 const ENERGY_FLOOR: f64 = 1e-9;
 
@@ -90,7 +93,10 @@ pub(super) struct ConstrainedMotion<'a> {
     pub(super) sizes: Vec<f64>,
     /// Largest kinetic energy so far [J]: the scale of the work quadratures.
     pub(super) energy_scale: f64,
-    /// What tells slopes of several states at once.
+    /// How many times slopes of several states are still told one by one before they are told at once: code for several is
+    /// written when it is asked for first.
+    alone: Option<u32>,
+    /// What tells them, once they were asked for.
     slopes: Option<Slopes<'a>>,
     /// Sizes of deflections, if steps are to go by them.
     modal: ModalSizes,
@@ -120,6 +126,7 @@ impl<'a> ConstrainedMotion<'a> {
             arm: 1.0,
             sizes: vec![1.0; sizes.speeds],
             energy_scale: ENERGY_FLOOR,
+            alone: None,
             slopes: None,
             modal: ModalSizes::default(),
             looseness: 1.0,
@@ -137,7 +144,7 @@ impl<'a> ConstrainedMotion<'a> {
     pub(super) fn judge_modes(&mut self, t: f64, y: &[f64]) {
         let (q, v) = y[..self.first_integral()].split_at(self.coordinates);
         self.modal = ModalSizes::new(&mut self.dynamics.evaluator, (t, q, v));
-        self.slopes = Slopes::new(&self.dynamics.evaluator);
+        self.alone = Some(ASKED_ALONE);
     }
 
     /// As [`crate::Evaluator::visit_memory`], of all that it stands on too.

@@ -24,6 +24,7 @@ use crate::error::RunError;
 use crate::evaluate::LoopError;
 use crate::integrate::Problem;
 use crate::ledger::{Balance, Ledger, Shown};
+use crate::system::System;
 use crate::watch::Watch;
 
 /// Times in a turn of the fastest body at which curves are looked at, at least: the peak of a tenth harmonic is then found
@@ -33,6 +34,9 @@ const LOOKS_PER_TURN: f64 = 240.0;
 /// follow it closely, and steps that do not have no more of it to see.
 const LOOKS_PER_RADIAN: f64 = 25.0;
 const LOOKS_AT_VIBRATION: f64 = 4.0;
+
+/// Looks that are taken one by one before several are taken together.
+const LOOKS_ALONE: usize = 500;
 /// Looks within one step, at most.
 const MOST_LOOKS: f64 = 1000.0;
 /// Halvings of a step to follow an angle: a step of a thousand turns that begin and end at rest takes twelve.
@@ -64,6 +68,8 @@ pub(super) struct Sampler<'a> {
     extremes: Option<Collector>,
     /// Looks for them that wait for others.
     looks: Option<Looks<'a>>,
+    /// What answers them, once so many more were taken one by one.
+    soon: Option<(&'a dyn System<f64>, usize)>,
     /// Room for states within a step.
     pub(super) within: Vec<f64>,
     /// Time and state at the end of the last good step.
@@ -104,6 +110,7 @@ impl<'a> Sampler<'a> {
             passages: Passages::default(),
             extremes: None,
             looks: None,
+            soon: None,
             within: Vec::new(),
             reached: (begin, state.to_vec()),
             follower,
@@ -318,9 +325,7 @@ impl<'a> Sampler<'a> {
     /// Collects the extremes of all columns along the way.
     pub(super) fn collect_extremes(&mut self, motion: &ConstrainedMotion<'a>) {
         // Angles are put on their turns at once, while these are known.
-        if self.angles.is_empty() {
-            self.looks = Looks::new(&motion.dynamics.evaluator, self.values.len());
-        }
+        self.soon = self.angles.is_empty().then(|| (motion.dynamics.evaluator.system(), LOOKS_ALONE));
         let span = (self.schedule.start, self.schedule.end);
         self.extremes = Some(Collector::new(&self.columns.channels, span));
     }
@@ -342,6 +347,16 @@ impl<'a> Sampler<'a> {
         (1..pieces).map(move |piece| before + (t - before) * (piece as f64 / pieces as f64))
     }
 
+    /// Looks are taken together once there are many: code for several states is written when it is asked for first.
+    fn count_look(&mut self, motion: &ConstrainedMotion<'_>) {
+        match self.soon.take() {
+            Some((system, 1)) => {
+                self.looks = Looks::new(system, &motion.dynamics.evaluator, self.values.len());
+            }
+            soon => self.soon = soon.map(|(system, more)| (system, more - 1)),
+        }
+    }
+
     /// Notes the extremes of all columns at a state of the motion.
     pub(super) fn look(
         &mut self,
@@ -349,6 +364,7 @@ impl<'a> Sampler<'a> {
         t: f64,
         state: &[f64],
     ) -> Result<(), RunError> {
+        self.count_look(motion);
         let Some(extremes) = &mut self.extremes else { return Ok(()) };
         if let Some(looks) = &mut self.looks {
             let (q, v, _) = motion.split(state);

@@ -17,8 +17,8 @@ pub(super) struct Slopes<'a> {
 
 impl<'a> Slopes<'a> {
     /// None if the system answers one state after the other.
-    pub(super) fn new(evaluator: &Evaluator<'a>) -> Option<Self> {
-        let (system, sizes) = (evaluator.side_by_side()?, evaluator.sizes());
+    pub(super) fn new(system: &'a dyn SideBySide<f64>, evaluator: &Evaluator<'_>) -> Option<Self> {
+        let sizes = evaluator.sizes();
         (sizes.contacts == 0 && system.answers(Entry::Derivative)).then(|| {
             let zeros = |length| vec![[0.0; STATES]; length];
             let mut question = zeros(sizes.input(Entry::Derivative));

@@ -6,6 +6,7 @@ use super::{
 };
 use crate::error::RunError;
 use crate::integrate::{Problem, one_by_one};
+use crate::simulate::slopes::Slopes;
 use crate::system::{INNER_STAGES, StagesOf};
 use crate::tables::Motion;
 
@@ -34,6 +35,12 @@ impl Problem for ConstrainedMotion<'_> {
         states: &[f64],
         derivatives: &mut [f64],
     ) -> Result<(), RunError> {
+        self.alone = self.alone.and_then(|left| left.checked_sub(1));
+        if self.alone == Some(0) {
+            let evaluator = &self.dynamics.evaluator;
+            let system = evaluator.system().side_by_side();
+            self.slopes = system.and_then(|system| Slopes::new(system, evaluator));
+        }
         let mut slopes = std::mem::take(&mut self.slopes);
         let aside = self.dynamics.aside();
         let regular = self.dynamics.nearness() >= PROJECTED_STAGES;
