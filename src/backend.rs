@@ -4,7 +4,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use linkwear_codegen::tape::Tape;
+use linkwear_codegen::tape::ShortTapes;
 use linkwear_codegen::{Compiled, Options};
 use linkwear_native::{Native, NativeBundle, Refusal};
 use linkwear_runtime::{StepPlan, System, WideBundle};
@@ -55,7 +55,7 @@ pub(crate) enum Lanes {
 
 impl Lanes {
     /// Of a mechanism; none where there is no code for it here.
-    pub(crate) fn new(tapes: &[Tape], plan: &StepPlan) -> Option<Self> {
+    pub(crate) fn new(tapes: &ShortTapes, plan: &StepPlan) -> Option<Self> {
         let eight = NativeBundle::new(tapes, plan).map(Self::Eight);
         eight.or_else(|_| NativeBundle::new(tapes, plan).map(Self::Four)).ok()
     }
@@ -113,7 +113,8 @@ impl Equations {
     /// # Errors
     /// If this processor or this system cannot run it.
     pub fn native(mechanism: &Compiled) -> Result<Self, Refusal> {
-        let system = Native::with_laws(mechanism.tapes(), mechanism.sizes(), mechanism.description())?;
+        let (tapes, sizes) = (mechanism.tapes_when_asked().clone(), mechanism.sizes_without_held());
+        let system = Native::when_asked(tapes, sizes, mechanism.description())?;
         Ok(Self { name: NATIVE, make: Arc::new(move || Box::new(system.clone())), refusal: None })
     }
 

@@ -71,7 +71,7 @@ pub struct Batch {
 enum Way {
     Eight(Columns<8>),
     Four(Columns<4>),
-    Alone(Native),
+    Alone(Box<Native>),
     Interpreted,
 }
 
@@ -81,7 +81,9 @@ impl Batch {
         let (tapes, sizes) = (mechanism.tapes(), mechanism.sizes());
         let way = Columns::new(tapes, sizes).map(Way::Eight);
         let way = way.or_else(|_| Columns::new(tapes, sizes).map(Way::Four));
-        let way = way.or_else(|_| Native::new(tapes, sizes).map(Way::Alone)).unwrap_or(Way::Interpreted);
+        let way = way
+            .or_else(|_| Native::new(tapes, sizes).map(|native| Way::Alone(Box::new(native))))
+            .unwrap_or(Way::Interpreted);
         Self {
             way,
             interpreter: mechanism.interpreter(),
@@ -250,7 +252,7 @@ impl Batch {
         match &self.way {
             Way::Eight(columns) => columns.evaluate(entry, inputs, states, outputs),
             Way::Four(columns) => columns.evaluate(entry, inputs, states, outputs),
-            Way::Alone(system) => alone(system, entry, inputs, (states, outputs)),
+            Way::Alone(system) => alone(&**system, entry, inputs, (states, outputs)),
             Way::Interpreted => alone(&self.interpreter, entry, inputs, (states, outputs)),
         }
         self.has_masses(entry, outputs, states)

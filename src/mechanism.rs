@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use linkwear_codegen::input::read_text;
-use linkwear_codegen::tape::Tape;
+use linkwear_codegen::tape::ShortTapes;
 use linkwear_codegen::{Closure, Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_native::{NativeBundle, Refusal};
 use linkwear_runtime::{Description, StepPlan, System};
@@ -96,8 +96,8 @@ struct Origin {
     /// Where the file is, and the files that it names.
     place: PathBuf,
     attached: Vec<PathBuf>,
-    /// Their tapes: hashing them takes longer than writing their machine code, and few ask.
-    tapes: Option<Arc<Vec<Tape>>>,
+    /// Their tapes: making and hashing them all takes longer than writing the machine code of most runs, and few ask.
+    tapes: Option<Arc<ShortTapes>>,
 }
 
 impl Mechanism {
@@ -125,7 +125,7 @@ impl Mechanism {
     pub fn of(compiled: &Compiled, options: &Options, backend: Backend) -> Result<Self, BackendError> {
         let equations = Equations::choose(compiled, options, backend)?;
         let warnings = located_warnings(compiled);
-        let tapes = Some(Arc::new(compiled.tapes().to_vec()));
+        let tapes = Some(Arc::clone(compiled.tapes_when_asked()));
         let source = &compiled.source;
         let origin = Origin {
             file: compiled.sha256(),
@@ -156,7 +156,7 @@ impl Mechanism {
     /// All that decides its numbers, in words that a difference is told by. Back ends agree in every bit.
     pub(crate) fn identity(&self) -> Identity {
         let Origin { file, tapes, .. } = &self.origin;
-        let tapes = tapes.as_ref().map(sha256).unwrap_or_default();
+        let tapes = tapes.as_ref().map(|tapes| sha256(&tapes.all())).unwrap_or_default();
         let parameters = self.description.parameters.iter().zip(&self.parameters);
         let parameters = parameters.map(|(known, value)| (format!("parameter {}", known.name), json!(value)));
         let mut entries = Identity::new();
@@ -208,7 +208,7 @@ impl Mechanism {
         NativeBundle::new(tapes, &plan).ok()
     }
 
-    fn steps(&self) -> Option<(&[Tape], StepPlan)> {
+    fn steps(&self) -> Option<(&ShortTapes, StepPlan)> {
         let tapes = self.origin.tapes.as_ref().filter(|_| self.equations.is_native())?;
         Some((tapes, StepPlan::new(&self.description, self.equations.system().sizes()).ok()?))
     }

@@ -56,7 +56,7 @@ fn equations(graph: Graph, symbols: &[ExprId], outputs: &[ExprId]) -> Equations 
         outputs: vec![Block::vector("y", outputs.to_vec())],
         goes_on: false,
     };
-    Equations { graph, functions: Entry::ALL.iter().map(function).collect() }
+    Equations::of(graph, Entry::ALL.iter().map(function).collect())
 }
 
 fn nobody() -> Description {

@@ -3,7 +3,7 @@
 use std::thread::available_parallelism;
 
 use linkwear_runtime::{Entry, StepPlan};
-use linkwear_tape::{Tape, side_by_side};
+use linkwear_tape::{Tape, Tapes, side_by_side};
 
 #[cfg(target_arch = "aarch64")]
 use crate::aarch64 as processor;
@@ -39,6 +39,21 @@ impl Functions {
         Self::for_target::<LANES>(tapes, processor::target::<LANES>()?)
     }
 
+    /// Of entries, in their order. Each tape is asked for where its code is written: those that are made by then are made side by
+    /// side, too.
+    pub(crate) fn of_entries<const LANES: usize>(
+        tapes: &dyn Tapes,
+        entries: &[Entry],
+    ) -> Result<Self, Refusal> {
+        let (target, functions) = (processor::target::<LANES>()?, processor::functions::<LANES>());
+        let threads = available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS));
+        let written = side_by_side(entries, threads, |entry| {
+            let tape = tapes.tape(*entry).ok_or_else(|| Refusal::missing(*entry))?;
+            write(tape, target, &functions)
+        });
+        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
+    }
+
     /// For so many states side by side of which every input and output is a column.
     pub(crate) fn of_columns<const LANES: usize>(tapes: &[Tape]) -> Result<Self, Refusal> {
         Self::for_target::<LANES>(tapes, processor::target_of_columns::<LANES>()?)
@@ -54,28 +69,25 @@ impl Functions {
     }
 
     /// Both parts of a step, from the tapes of all entries: see [`linkwear_runtime::Bundle`].
-    pub(crate) fn of_steps<const LANES: usize>(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
+    pub(crate) fn of_steps<const LANES: usize>(tapes: &dyn Tapes, plan: &StepPlan) -> Result<Self, Refusal> {
         Self::of_parts::<LANES>(tapes, plan, &[Part::Attempt, Part::Conclude])
     }
 
     /// The derivative with the laws of contact inside: see [`linkwear_runtime::WithLaws`].
-    pub(crate) fn of_laws(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
+    pub(crate) fn of_laws(tapes: &dyn Tapes, plan: &StepPlan) -> Result<Self, Refusal> {
         Self::of_parts::<1>(tapes, plan, &[Part::Derivative])
     }
 
     /// The stages within a step: see [`linkwear_runtime::InnerStages`].
-    pub(crate) fn of_stages(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
+    pub(crate) fn of_stages(tapes: &dyn Tapes, plan: &StepPlan) -> Result<Self, Refusal> {
         Self::of_parts::<1>(tapes, plan, &[Part::Stages])
     }
 
     fn of_parts<const LANES: usize>(
-        tapes: &[Tape],
+        tapes: &dyn Tapes,
         plan: &StepPlan,
         parts: &[Part],
     ) -> Result<Self, Refusal> {
-        if let Some(entry) = Entry::ALL.get(tapes.len()) {
-            return Err(Refusal::missing(*entry));
-        }
         let (target, functions) = (processor::target::<LANES>()?, processor::functions::<LANES>());
         let written = parts.iter().map(|part| {
             let named = Named { name: part.name(), operations: fuse(tapes, plan, *part) };

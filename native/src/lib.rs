@@ -31,10 +31,12 @@ mod aarch64;
 mod columns;
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 mod functions;
+mod lanes;
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 mod memory;
 mod refusal;
 mod routine;
+mod seldom;
 #[cfg(any(test, target_arch = "aarch64", target_arch = "x86_64"))]
 mod straight;
 mod system;
@@ -44,6 +46,7 @@ mod unsupported;
 mod x86;
 
 pub use columns::Columns;
+pub use lanes::{Lanes, NativeBundle};
 pub use refusal::Refusal;
 pub use routine::Routine;
-pub use system::{Lanes, Native, NativeBundle};
+pub use system::Native;

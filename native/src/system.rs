@@ -1,17 +1,18 @@
-//! A mechanism as machine code. In: one tape per entry. Out: a [`System`]. Never knows how code is written.
+//! A mechanism as machine code. In: its tapes by entry. Out: a [`System`]. Never knows how code is written.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
 
 use linkwear_runtime::clearance_joint::Clearance;
 use linkwear_runtime::{
-    Bundle, Description, Entry, InnerStages, STATES, SideBySide, Sizes, StepPlan, System, WithLaws,
+    Description, Entry, InnerStages, STATES, SideBySide, Sizes, StepPlan, System, WithLaws,
 };
-use linkwear_tape::Tape;
+use linkwear_tape::{Tape, Tapes};
 
 #[cfg(any(target_arch = "aarch64", target_arch = "x86_64"))]
 use crate::functions::Functions;
 use crate::refusal::Refusal;
+use crate::seldom::Seldom;
 #[cfg(not(any(target_arch = "aarch64", target_arch = "x86_64")))]
 use crate::unsupported::Functions;
 
@@ -50,7 +51,13 @@ use crate::unsupported::Functions;
 /// ```
 #[derive(Clone)]
 pub struct Native {
-    alone: Lanes<1>,
+    sizes: Sizes,
+    tapes: Arc<dyn Tapes>,
+    /// Of entries that are written at once.
+    functions: Arc<Functions>,
+    /// By entry, which of these answers it.
+    places: [Option<usize>; Entry::ALL.len()],
+    seldom: Arc<Seldom>,
     several: Several,
     laws: Option<Laws>,
 }
@@ -66,7 +73,7 @@ struct Laws {
 
 /// The stages within a step, with the laws of contact inside.
 struct Stages {
-    tapes: Vec<Tape>,
+    tapes: Arc<dyn Tapes>,
     plan: StepPlan,
     /// Written when they are asked for first: the code is three times as long as that of a derivative.
     functions: OnceLock<Option<Functions>>,
@@ -75,112 +82,41 @@ struct Stages {
 /// What runs ask at several states at once.
 #[derive(Clone)]
 struct Several {
-    functions: Arc<Functions>,
+    tapes: Arc<dyn Tapes>,
     entries: &'static [Entry],
+    /// Written when they are asked for first: short runs do not.
+    functions: Arc<OnceLock<Option<Functions>>>,
 }
 
 /// Columns; and the derivatives of slopes by states, which stiff motion is integrated with. Contacts are integrated by other methods.
 const OF_SEVERAL: [Entry; 2] = [Entry::Observe, Entry::Derivative];
 
-/// A mechanism as machine code that evaluates `N` states side by side, 4 or 8: every one with the bits that it would have
-/// alone. Clones share the code.
-#[derive(Clone)]
-pub struct Lanes<const N: usize> {
-    functions: Arc<Functions>,
-    sizes: Sizes,
-}
+/// What every run asks for, the longest first, for they are written side by side; contacts are there with the derivative.
+const OFTEN: [Entry; 7] = [
+    Entry::Observe,
+    Entry::Derivative,
+    Entry::Energy,
+    Entry::Closure,
+    Entry::Start,
+    Entry::Prescribed,
+    Entry::Contacts,
+];
+
+/// The same with joints that have clearance: how stiff their contacts are is asked where a run begins.
+const OFTEN_WITH_CONTACTS: [Entry; 8] = [
+    Entry::Observe,
+    Entry::Derivative,
+    Entry::Accelerations,
+    Entry::Energy,
+    Entry::Closure,
+    Entry::Start,
+    Entry::Prescribed,
+    Entry::Contacts,
+];
 
 impl fmt::Debug for Native {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_tuple("Native").field(&self.alone.sizes).finish()
-    }
-}
-
-impl<const N: usize> fmt::Debug for Lanes<N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Lanes").field("lanes", &N).field("sizes", &self.sizes).finish_non_exhaustive()
-    }
-}
-
-impl<const N: usize> Lanes<N> {
-    /// Writes the code of tapes, in the order of [`Entry::ALL`]. `sizes.workspace` is set here.
-    ///
-    /// # Errors
-    /// If this processor or this system cannot run it, or a tape makes no sense.
-    pub fn new(tapes: &[Tape], sizes: Sizes) -> Result<Self, Refusal> {
-        if let Some(entry) = Entry::ALL.get(tapes.len()) {
-            return Err(Refusal::missing(*entry));
-        }
-        let functions = Functions::new::<N>(tapes)?;
-        let sizes = Sizes { workspace: functions.workspace().div_ceil(N), ..sizes };
-        Ok(Self { functions: Arc::new(functions), sizes })
-    }
-
-    /// The layout of inputs and outputs, as for one state.
-    pub const fn sizes(&self) -> Sizes {
-        self.sizes
-    }
-
-    /// Evaluates `entry`: every value is that of all states. It is fastest where inputs and outputs begin at multiples of
-    /// 64 bytes.
-    ///
-    /// # Panics
-    /// If a slice is shorter than [`Sizes`] says.
-    pub fn evaluate(
-        &self,
-        entry: Entry,
-        input: &[[f64; N]],
-        output: &mut [[f64; N]],
-        workspace: &mut [[f64; N]],
-    ) {
-        let (input, output) = (input.as_flattened(), output.as_flattened_mut());
-        self.functions.run(entry as usize, input, output, workspace.as_flattened_mut());
-    }
-}
-
-/// Steps of `N` trajectories of a mechanism side by side as machine code, laws of contact included. Clones share the code.
-#[derive(Clone)]
-pub struct NativeBundle<const N: usize> {
-    parts: Arc<Functions>,
-    sizes: Sizes,
-}
-
-impl<const N: usize> fmt::Debug for NativeBundle<N> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("NativeBundle").field("lanes", &N).field("sizes", &self.sizes).finish_non_exhaustive()
-    }
-}
-
-impl<const N: usize> NativeBundle<N> {
-    /// Writes the code of a plan with tapes, in the order of [`Entry::ALL`].
-    ///
-    /// # Errors
-    /// As [`Lanes::new`]; and if a joint keeps wear by bearing angle.
-    pub fn new(tapes: &[Tape], plan: &StepPlan) -> Result<Self, Refusal> {
-        if plan.joints().iter().any(Clearance::keeps_profiles) {
-            return Err(Refusal::Profile);
-        }
-        Ok(Self { parts: Arc::new(Functions::of_steps::<N>(tapes, plan)?), sizes: plan.sizes() })
-    }
-}
-
-impl<const N: usize> Bundle<N> for NativeBundle<N> {
-    fn sizes(&self) -> Sizes {
-        self.sizes
-    }
-
-    fn workspace(&self) -> usize {
-        self.parts.workspace().div_ceil(N)
-    }
-
-    fn attempt(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
-        let (question, answer) = (question.as_flattened(), answer.as_flattened_mut());
-        self.parts.run(0, question, answer, workspace.as_flattened_mut());
-    }
-
-    fn conclude(&self, arena: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
-        let (arena, answer) = (arena.as_flattened(), answer.as_flattened_mut());
-        self.parts.run(1, arena, answer, workspace.as_flattened_mut());
+        f.debug_tuple("Native").field(&self.sizes).finish()
     }
 }
 
@@ -190,11 +126,7 @@ impl Native {
     /// # Errors
     /// If this processor or this system cannot run it, or a tape makes no sense.
     pub fn new(tapes: &[Tape], sizes: Sizes) -> Result<Self, Refusal> {
-        let alone = Lanes::new(tapes, sizes)?;
-        let entries = &OF_SEVERAL[..if sizes.contacts > 0 { 1 } else { 2 }];
-        let asked: Vec<Tape> = entries.iter().map(|entry| tapes[*entry as usize].clone()).collect();
-        let functions = Arc::new(Functions::new::<STATES>(&asked)?);
-        Ok(Self { alone, several: Several { functions, entries }, laws: None })
+        Self::written(Arc::new(tapes.to_vec()), &Entry::ALL, sizes)
     }
 
     /// The same with the laws of contact inside the derivative, if the mechanism has joints with clearance. Wear by bearing angle
@@ -203,29 +135,64 @@ impl Native {
     /// # Errors
     /// As [`Self::new`].
     pub fn with_laws(tapes: &[Tape], sizes: Sizes, description: &Description) -> Result<Self, Refusal> {
-        let outside = Self::new(tapes, sizes)?;
-        let Ok(plan) = StepPlan::new(description, sizes) else { return Ok(outside) };
+        Self::new(tapes, sizes)?.and_laws(description)
+    }
+
+    /// The same of tapes that are made when they are asked for: here those that every run asks for, the others by who evaluates
+    /// their entries first. `sizes.held` is set here, too.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn when_asked(
+        tapes: Arc<dyn Tapes>,
+        sizes: Sizes,
+        description: &Description,
+    ) -> Result<Self, Refusal> {
+        let entries: &[Entry] = if sizes.contacts > 0 { &OFTEN_WITH_CONTACTS } else { &OFTEN };
+        Self::written(tapes, entries, sizes)?.and_laws(description)
+    }
+
+    fn written(tapes: Arc<dyn Tapes>, entries: &'static [Entry], sizes: Sizes) -> Result<Self, Refusal> {
+        let functions = Functions::of_entries::<1>(&*tapes, entries)?;
+        let held = tapes.tape(Entry::Contacts).map_or(0, Tape::output_len);
+        let sizes = Sizes { workspace: functions.workspace(), ..sizes.with_held(held) };
+        let several = Several {
+            tapes: Arc::clone(&tapes),
+            entries: &OF_SEVERAL[..if sizes.contacts > 0 { 1 } else { 2 }],
+            functions: Arc::default(),
+        };
+        let places = Entry::ALL.map(|entry| entries.iter().position(|known| *known == entry));
+        let (functions, seldom) = (Arc::new(functions), Arc::default());
+        Ok(Self { sizes, tapes, functions, places, seldom, several, laws: None })
+    }
+
+    fn and_laws(self, description: &Description) -> Result<Self, Refusal> {
+        let Ok(plan) = StepPlan::new(description, self.sizes) else { return Ok(self) };
         if plan.joints().is_empty() || plan.joints().iter().any(Clearance::keeps_profiles) {
-            return Ok(outside);
+            return Ok(self);
         }
-        let functions = Arc::new(Functions::of_laws(tapes, &plan)?);
+        let tapes = Arc::clone(&self.tapes);
+        let functions = Arc::new(Functions::of_laws(&*tapes, &plan)?);
         let words = plan.laws().into();
-        let stages = Arc::new(Stages { tapes: tapes.to_vec(), plan, functions: OnceLock::new() });
-        Ok(Self { laws: Some(Laws { functions, words, stages }), ..outside })
+        let stages = Arc::new(Stages { tapes, plan, functions: OnceLock::new() });
+        Ok(Self { laws: Some(Laws { functions, words, stages }), ..self })
     }
 }
 
 impl System<f64> for Native {
     fn sizes(&self) -> Sizes {
-        self.alone.sizes
+        self.sizes
     }
 
     fn evaluate(&self, entry: Entry, input: &[f64], output: &mut [f64], workspace: &mut [f64]) {
-        self.alone.functions.run(entry as usize, input, output, workspace);
+        match self.places[entry as usize] {
+            Some(function) => self.functions.run(function, input, output, workspace),
+            None => self.seldom.evaluate(&*self.tapes, entry, (input, output, workspace)),
+        }
     }
 
     fn side_by_side(&self) -> Option<&dyn SideBySide<f64>> {
-        Some(&self.several)
+        self.several.written().map(|_| &self.several as &dyn SideBySide<f64>)
     }
 
     fn laws_inside(&self) -> Option<&dyn WithLaws<f64>> {
@@ -248,7 +215,7 @@ impl WithLaws<f64> for Laws {
 
     fn inner_stages(&self) -> Option<&dyn InnerStages<f64>> {
         let Stages { tapes, plan, functions } = &*self.stages;
-        let written = functions.get_or_init(|| Functions::of_stages(tapes, plan).ok());
+        let written = functions.get_or_init(|| Functions::of_stages(&**tapes, plan).ok());
         written.as_ref().map(|written| written as &dyn InnerStages<f64>)
     }
 }
@@ -263,13 +230,20 @@ impl InnerStages<f64> for Functions {
     }
 }
 
+impl Several {
+    fn written(&self) -> Option<&Functions> {
+        let write = || Functions::of_entries::<STATES>(&*self.tapes, self.entries).ok();
+        self.functions.get_or_init(write).as_ref()
+    }
+}
+
 impl SideBySide<f64> for Several {
     fn answers(&self, entry: Entry) -> bool {
         self.entries.contains(&entry)
     }
 
     fn workspace(&self) -> usize {
-        self.functions.workspace().div_ceil(STATES)
+        self.written().map_or(0, |functions| functions.workspace().div_ceil(STATES))
     }
 
     fn evaluate(
@@ -281,6 +255,8 @@ impl SideBySide<f64> for Several {
     ) {
         let (input, output) = (input.as_flattened(), output.as_flattened_mut());
         let place = self.entries.iter().position(|known| *known == entry).unwrap_or(usize::MAX);
-        self.functions.run(place, input, output, workspace.as_flattened_mut());
+        if let Some(functions) = self.written() {
+            functions.run(place, input, output, workspace.as_flattened_mut());
+        }
     }
 }

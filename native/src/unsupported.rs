@@ -2,8 +2,8 @@
 
 use std::convert::Infallible;
 
-use linkwear_runtime::StepPlan;
-use linkwear_tape::Tape;
+use linkwear_runtime::{Entry, StepPlan};
+use linkwear_tape::{Tape, Tapes};
 
 use crate::refusal::Refusal;
 
@@ -14,15 +14,19 @@ impl Functions {
         Err(Refusal::Processor { needed: "an x86-64 or aarch64 processor" })
     }
 
-    pub(crate) fn of_steps<const LANES: usize>(_: &[Tape], _: &StepPlan) -> Result<Self, Refusal> {
+    pub(crate) fn of_entries<const LANES: usize>(_: &dyn Tapes, _: &[Entry]) -> Result<Self, Refusal> {
         Self::new::<LANES>(&[])
     }
 
-    pub(crate) fn of_laws(_: &[Tape], _: &StepPlan) -> Result<Self, Refusal> {
+    pub(crate) fn of_steps<const LANES: usize>(_: &dyn Tapes, _: &StepPlan) -> Result<Self, Refusal> {
+        Self::new::<LANES>(&[])
+    }
+
+    pub(crate) fn of_laws(_: &dyn Tapes, _: &StepPlan) -> Result<Self, Refusal> {
         Self::new::<1>(&[])
     }
 
-    pub(crate) fn of_stages(_: &[Tape], _: &StepPlan) -> Result<Self, Refusal> {
+    pub(crate) fn of_stages(_: &dyn Tapes, _: &StepPlan) -> Result<Self, Refusal> {
         Self::new::<1>(&[])
     }
 

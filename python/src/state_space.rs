@@ -112,7 +112,8 @@ fn loaded(py: Python<'_>, mechanism: &Mechanism) -> PyResult<&'static Loaded> {
     }
     let compiled = ask::compile(words, source).map_err(|failure| raised(py, &failure))?;
     let description = compiled.description().clone();
-    let native = linkwear::native::Native::with_laws(compiled.tapes(), compiled.sizes(), &description);
+    let (tapes, sizes) = (compiled.tapes_when_asked().clone(), compiled.sizes_without_held());
+    let native = linkwear::native::Native::when_asked(tapes, sizes, &description);
     let system: Box<dyn System<f64> + Send + Sync> = match native {
         Ok(native) => Box::new(native),
         Err(_) => Box::new(compiled.interpreter()),

@@ -129,6 +129,12 @@ pub struct Sizes {
 }
 
 impl Sizes {
+    /// With what [`Entry::Contacts`] hands on, by the length of its output.
+    pub const fn with_held(self, contacts: usize) -> Self {
+        let without = Self { held: 0, ..self };
+        Self { held: contacts.saturating_sub(without.output(Entry::Contacts)), ..without }
+    }
+
     /// Length of the input slice of `entry`.
     pub const fn input(&self, entry: Entry) -> usize {
         let base = self.parameters + 1;
@@ -190,7 +196,8 @@ pub trait System<T: Scalar> {
     /// The layout of inputs and outputs.
     fn sizes(&self) -> Sizes;
 
-    /// Evaluates `entry`. Does not allocate and does not branch on `input`.
+    /// Evaluates `entry`. Does not branch on `input`, and does not allocate, but where code for an entry is made when it is first
+    /// asked for.
     ///
     /// # Panics
     /// If a slice is shorter than [`Sizes`] says.

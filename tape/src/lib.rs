@@ -28,6 +28,7 @@ mod split;
 pub mod stored;
 mod tangent;
 mod tape;
+mod tapes;
 mod verify;
 
 pub use block::Block;
@@ -40,4 +41,5 @@ pub use registers::Registers;
 pub use side_by_side::side_by_side;
 pub use split::{PART_LIMIT, Part, Split, split};
 pub use tape::{Statement, Tape};
+pub use tapes::Tapes;
 pub use verify::verify;

@@ -1,7 +1,7 @@
 //! A mechanism, understood, and what can be asked of it.
 //! In: what the stages made. Out: [`Compiled`]. Never knows in which order they ran.
 
-use std::sync::OnceLock;
+use std::sync::Arc;
 
 use linkwear_runtime::clearance_joint::Clearances;
 use linkwear_runtime::{Description, Entry, Sizes, System, motion_sizes};
@@ -16,7 +16,7 @@ use crate::model::{Closure, Mechanism, Topology};
 use crate::preflight::{self, Analysis, Assemblies};
 use crate::render::{self, OutputInfo, TextFormat};
 use crate::source::SourceFile;
-use crate::tape::{self, AtHand, Lowered, Operations, PART_LIMIT, Tape};
+use crate::tape::{self, AtHand, Lowered, Operations, PART_LIMIT, ShortTapes, Tape, Tapes};
 
 /// A mechanism, understood: equations, tapes and all that is known about it.
 #[derive(Clone, Debug)]
@@ -24,19 +24,19 @@ pub struct Compiled {
     /// The file it came from.
     pub source: SourceFile,
     /// The mechanism.
-    pub mechanism: Mechanism,
+    pub mechanism: Arc<Mechanism>,
     /// The closure that the file asks for, whatever [`crate::Options::closure`] made of it.
     pub closure_in_file: Closure,
     /// Spanning tree and cuts.
-    pub topology: Topology,
+    pub topology: Arc<Topology>,
     /// Freedoms and redundancies.
     pub analysis: Analysis,
     /// Remarks that do not stop the compilation.
     pub warnings: Vec<Diagnostic>,
     /// Symbolic equations.
-    pub equations: Equations,
-    /// One tape per function, once somebody asks: half of the work on a large mechanism, which a check does not need.
-    pub(super) tapes: OnceLock<Vec<Tape>>,
+    pub equations: Arc<Equations>,
+    /// One tape per function: half of the work on a large mechanism, which a check does not need.
+    pub(super) tapes: Arc<ShortTapes>,
     /// Of the same as the derivation made them what looks have asked for that came before.
     pub(super) lowered: Lowered,
     pub(super) description: Description,
@@ -70,7 +70,12 @@ impl Compiled {
 
     /// One tape per function, in as few operations as are found.
     pub fn tapes(&self) -> &[Tape] {
-        self.tapes.get_or_init(|| tape::lower_short(&self.equations))
+        self.tapes.all()
+    }
+
+    /// The same, each made when it is first asked for: most runs ask for half of them.
+    pub fn tapes_when_asked(&self) -> &Arc<ShortTapes> {
+        &self.tapes
     }
 
     /// Whether the mass matrix is left out of `equations_of_motion`, as it is of long mechanisms: zeros stand in its place.
@@ -90,30 +95,26 @@ impl Compiled {
 
     /// Lengths of inputs and outputs; each back end has a workspace of its own.
     pub fn sizes(&self) -> Sizes {
-        self.sizes_of(self.tapes())
+        self.sizes.with_held(self.tapes.tape(Entry::Contacts).map_or(0, Tape::output_len))
     }
 
-    fn sizes_of(&self, tapes: &[Tape]) -> Sizes {
-        let held = tapes[Entry::Contacts as usize].output_len() - self.sizes.output(Entry::Contacts);
-        Sizes { held, ..self.sizes }
+    /// The same before any tape is made: without what contacts hand to the derivative.
+    pub const fn sizes_without_held(&self) -> Sizes {
+        self.sizes
     }
 
     /// The mechanism as a runtime system, without a compiler.
     pub fn interpreter(&self) -> Interpreted {
-        self.interpreter_of(self.tapes())
+        Interpreted::new(self.tapes(), self.sizes(), self.description.clone())
     }
 
     /// The same for a look at a state or two: by tapes as the derivation made them, and of those that it asks for alone, unless
     /// shorter ones are there already. To shorten them takes longer than such a look. Values differ by rounding.
     pub fn interpreter_at_hand(&self) -> Box<dyn System<f64> + '_> {
-        match self.tapes.get() {
-            Some(tapes) => Box::new(self.interpreter_of(tapes)),
+        match self.tapes.known() {
+            Some(_) => Box::new(self.interpreter()),
             None => Box::new(AtHand::new(&self.equations, &self.lowered, self.sizes)),
         }
-    }
-
-    fn interpreter_of(&self, tapes: &[Tape]) -> Interpreted {
-        Interpreted::new(tapes, self.sizes_of(tapes), self.description.clone())
     }
 
     /// How else the loops could close at the start.

@@ -3,7 +3,7 @@
 
 mod compiled;
 
-use std::sync::OnceLock;
+use std::sync::Arc;
 
 use crate::derive::{self, Derived, Guide, Purpose};
 use crate::diagnostic::{Code, Diagnostic, Diagnostics};
@@ -13,9 +13,12 @@ use crate::model::{self, Closure, Mechanism, Overrides, Topology};
 use crate::preflight::{self, Case, Findings, OwnUnits, Waypoint};
 use crate::source::SourceFile;
 use crate::spec;
-use crate::tape::{AtHand, Lowered};
+use crate::tape::{AtHand, Lowered, ShortTapes};
 
 pub use compiled::{Compiled, FunctionCount};
+
+/// Where runs ask for so many expressions, the equations of motion by themselves may break the limit: they are derived at once then.
+const UNSEEN: usize = limits::EXPRESSIONS.most / 4;
 
 /// What a caller may change without touching the file.
 #[derive(Clone, Debug, Default)]
@@ -121,8 +124,16 @@ fn understood(
         guide.jacobians.clear();
     }
     warnings.extend(remarks);
-    let purpose = if options.pictured { Purpose::Picture } else { Purpose::Everything };
+    let purpose = if options.pictured { Purpose::Picture } else { Purpose::Run };
     let derived = derived(source, &mechanism, &topology, Some(&guide), purpose)?;
+    let (mechanism, topology) = (Arc::new(mechanism), Arc::new(topology));
+    let of = (Arc::clone(&mechanism), Arc::clone(&topology));
+    let closed = derived.closed;
+    let apart = move || derive::equations_of_motion(&of.0, &of.1, &guide, closed);
+    let equations = Arc::new(derived.equations.and_apart(apart));
+    if options.whole_equations || equations.wanted() > UNSEEN {
+        within(source, [(limits::EXPRESSIONS, equations.wanted_apart())])?;
+    }
     let mut compiled = Compiled {
         source: file.clone(),
         mechanism,
@@ -130,8 +141,8 @@ fn understood(
         topology,
         analysis,
         warnings,
-        equations: derived.equations,
-        tapes: OnceLock::new(),
+        tapes: Arc::new(ShortTapes::new(Arc::clone(&equations))),
+        equations,
         lowered: Lowered::default(),
         description: derived.description,
         sizes: derived.sizes,
@@ -195,6 +206,7 @@ fn examine<T>(
         linkage: &derived.linkage,
         description: &derived.description,
         system: &system,
+        rows: &|question| system.rows(question),
         units: OwnUnits::new(mechanism, &derived.description),
     };
     ask(&case)
@@ -210,7 +222,7 @@ fn derived(
 ) -> Result<Derived, Diagnostics> {
     let derived = derive::derive(mechanism, topology, guide, purpose);
     within(source, [(limits::SPEEDS, derived.sizes.all_speeds)])?;
-    within(source, [(limits::EXPRESSIONS, derived.equations.graph.wanted())])?;
+    within(source, [(limits::EXPRESSIONS, derived.equations.wanted())])?;
     Ok(derived)
 }
 

@@ -1,4 +1,4 @@
-//! Symbolic derivation: from a mechanism to named outputs over one expression graph.
+//! Symbolic derivation: from a mechanism to named outputs over expression graphs.
 //! In: `crate::model`. Out: [`Equations`]. Never knows text formats or Rust syntax.
 //!
 //! Order of reading: `linkage` (frames), `kinematics`, `link_mass`, `closure`, `elements`,
@@ -19,6 +19,7 @@ mod element;
 mod elements;
 mod elimination_cost;
 mod entries;
+mod equations;
 mod fields;
 mod force_values;
 mod formula_to_expr;
@@ -71,40 +72,14 @@ mod wear_factor;
 mod wrench;
 
 pub use closure::row_count;
-pub use entries::{Derived, Purpose, derive, shorter_in_ground, shorter_off_balls, splits_plane_rows};
+pub use entries::{
+    Derived, Purpose, derive, equations_of_motion, shorter_in_ground, shorter_off_balls, splits_plane_rows,
+};
+pub use equations::{Derivation, Equations};
 pub use linkage::{Freedom, Link, Linkage};
 pub use plan::Guide;
 
-use linkwear_runtime::Entry;
-
-use crate::expr::{ExprId, Graph};
-
-/// Everything derived for one mechanism: one graph, several functions over it.
-#[derive(Clone, Debug)]
-pub struct Equations {
-    /// The shared graph.
-    pub graph: Graph,
-    /// One function per [`linkwear_runtime::Entry`], in the order of `Entry::ALL`.
-    pub functions: Vec<Function>,
-}
-
-impl Equations {
-    /// Whether zeros stand in the place of the mass matrix.
-    pub fn mass_is_left_out(&self) -> bool {
-        let equations = self.functions.iter().find(|one| one.name == Entry::EquationsOfMotion.name());
-        let mass = equations.and_then(|equations| equations.outputs.first());
-        let is_zero = |id: &ExprId| self.graph.as_constant(*id) == Some(0.0);
-        mass.is_some_and(|mass| !mass.entries.is_empty() && mass.entries.iter().all(is_zero))
-    }
-
-    /// Whether every number that they need is finite.
-    pub fn is_finite(&self) -> bool {
-        let outputs = self.functions.iter().flat_map(|function| &function.outputs);
-        let roots: Vec<ExprId> = outputs.flat_map(|block| block.entries.iter().copied()).collect();
-        let needed = self.graph.live(&self.graph.uses(&roots));
-        needed.iter().all(|id| self.graph.as_constant(*id).is_none_or(f64::is_finite))
-    }
-}
+use crate::expr::ExprId;
 
 /// A function over the graph: what one entry point computes.
 #[derive(Clone, Debug)]

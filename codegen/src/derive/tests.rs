@@ -111,8 +111,7 @@ fn rssr(closure: Closure) -> (Mechanism, Topology) {
 
 /// Evaluates one function for a flat input.
 fn run(derived: &Derived, entry: Entry, input: &[f64]) -> Vec<Vec<f64>> {
-    let graph = &derived.equations.graph;
-    let function = derived.equations.functions.iter().find(|f| f.name == entry.name()).unwrap();
+    let (graph, function) = derived.equations.function(entry).unwrap();
     let mut symbols = vec![0.0; graph.uses(&[]).len()];
     let names: Vec<_> = function.inputs.iter().flat_map(|block| block.entries.iter()).collect();
     assert_eq!(names.len(), input.len());
@@ -132,7 +131,7 @@ fn rssr_at_the_start_moves_as_the_independent_solution_and_both_closures_have_it
     let mut known: Option<Vec<f64>> = None;
     for closure in [Closure::Joint, Closure::Log] {
         let (mechanism, topology) = rssr(closure);
-        let derived = derive(&mechanism, &topology, None, Purpose::Everything);
+        let derived = derive(&mechanism, &topology, None, Purpose::Run);
         let (nq, nv, m) = (derived.sizes.coordinates, derived.sizes.speeds, derived.sizes.rows);
         let start = run(&derived, Entry::Start, &[0.0]);
         let mut q = start[0].clone();
@@ -252,8 +251,7 @@ fn n_four_bar(n: usize) -> (Mechanism, Topology) {
 }
 
 fn live_operations(derived: &Derived, entry: Entry) -> usize {
-    let graph = &derived.equations.graph;
-    let function = derived.equations.functions.iter().find(|f| f.name == entry.name()).unwrap();
+    let (graph, function) = derived.equations.function(entry).unwrap();
     let mut live = std::collections::HashSet::new();
     let mut stack: Vec<_> = function.outputs.iter().flat_map(|b| b.entries.clone()).collect();
     let mut count = 0;
@@ -284,7 +282,7 @@ fn operations_of_the_n_four_bar_grow_no_faster_than_n_to_the_1_3() {
         // Of the five rows of every cut revolute the two in the plane are kept.
         let keep: Vec<bool> = (0..5 * n).map(|row| row % 5 < 2).collect();
         let guide = Guide { keep, ..Guide::default() };
-        let derived = derive(&mechanism, &topology, Some(&guide), Purpose::Everything);
+        let derived = derive(&mechanism, &topology, Some(&guide), Purpose::Run);
         counts.push(live_operations(&derived, Entry::ForwardDynamics) as f64);
     }
     let exponent = (counts[2] / counts[0]).ln() / 20.0_f64.ln();

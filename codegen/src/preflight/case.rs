@@ -26,6 +26,8 @@ pub struct Case<'a> {
     pub description: &'a Description,
     /// The released mechanism.
     pub system: &'a dyn System<f64>,
+    /// Of its equations of motion the position residuals and the Jacobian of all rows.
+    pub rows: &'a dyn Fn(&[f64]) -> Vec<f64>,
     /// What its lengths are measured in.
     pub units: OwnUnits,
 }
@@ -40,6 +42,7 @@ impl Case<'_> {
     pub fn walker(&self) -> Walker<'_> {
         Walker {
             system: self.system,
+            rows: self.rows,
             parameters: self.parameters(),
             layout: Layout::new(&self.description.motions),
             joint_speeds: self.linkage.joint_speeds(),

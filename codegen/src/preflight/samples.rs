@@ -114,6 +114,8 @@ pub fn evaluate(system: &dyn System<f64>, entry: Entry, input: &[f64], output: &
 pub struct Walker<'a> {
     /// The mechanism.
     pub system: &'a dyn System<f64>,
+    /// Its rows, at the question of its equations of motion.
+    pub rows: &'a dyn Fn(&[f64]) -> Vec<f64>,
     /// Values of the tunable parameters.
     pub parameters: Vec<f64>,
     /// Places of coordinates and speeds.
@@ -129,22 +131,22 @@ impl Walker<'_> {
     pub fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
         let sizes = self.system.sizes();
         let (n, m) = (sizes.all_speeds, sizes.all_rows);
-        let output = self.equations_of_motion(q);
-        let first = n * (n + 1) / 2 + n;
+        let output = (self.rows)(&self.at_rest(q));
         let OwnUnits { speeds, rows, .. } = self.units;
-        let phi = DVector::from_fn(m, |i, _| output[first + i] / rows[i]);
+        let phi = DVector::from_fn(m, |i, _| output[i] / rows[i]);
         // Most entries are zero in any unit.
         let in_units = |entry: f64, i: usize, j: usize| {
             if entry == 0.0 { entry } else { entry * (speeds[j] / rows[i]) }
         };
-        let jacobian = DMatrix::from_fn(m, n, |i, j| in_units(output[first + m + i * n + j], i, j));
+        let jacobian = DMatrix::from_fn(m, n, |i, j| in_units(output[m + i * n + j], i, j));
         (phi, jacobian)
     }
 
     /// Mass matrix of all speeds, in own units but for a common factor.
     pub fn mass(&self, q: &[f64]) -> DMatrix<f64> {
         let n = self.system.sizes().all_speeds;
-        let output = self.equations_of_motion(q);
+        let mut output = vec![0.0; self.system.sizes().output(Entry::EquationsOfMotion)];
+        evaluate(self.system, Entry::EquationsOfMotion, &self.at_rest(q), &mut output);
         let speeds = &self.units.speeds;
         let mut mass = DMatrix::zeros(n, n);
         let upper = (0..n).flat_map(|i| (i..n).map(move |j| (i, j)));
@@ -168,13 +170,12 @@ impl Walker<'_> {
         })
     }
 
-    /// At rest.
-    fn equations_of_motion(&self, q: &[f64]) -> Vec<f64> {
+    /// The question of the equations of motion, at rest.
+    fn at_rest(&self, q: &[f64]) -> Vec<f64> {
         let sizes = self.system.sizes();
-        let input = [&self.parameters, &[0.0][..], q, &vec![0.0; sizes.all_speeds]].concat();
-        let mut output = vec![0.0; sizes.output(Entry::EquationsOfMotion)];
-        evaluate(self.system, Entry::EquationsOfMotion, &input, &mut output);
-        output
+        let mut question = [&self.parameters, &[0.0][..], q].concat();
+        question.resize(sizes.input(Entry::EquationsOfMotion), 0.0);
+        question
     }
 
     fn position(&self, q: Vec<f64>) -> Position {

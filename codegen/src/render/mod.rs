@@ -36,7 +36,7 @@ pub struct OutputInfo {
 /// All outputs with their costs, in the order of the functions.
 pub fn outputs(equations: &Equations, tapes: &[Tape]) -> Vec<OutputInfo> {
     let mut list = Vec::new();
-    for (function, tape) in equations.functions.iter().zip(tapes) {
+    for ((graph, function), tape) in equations.functions().zip(tapes) {
         for (index, block) in function.outputs.iter().enumerate() {
             list.push(OutputInfo {
                 function: function.name.clone(),
@@ -44,7 +44,7 @@ pub fn outputs(equations: &Equations, tapes: &[Tape]) -> Vec<OutputInfo> {
                 rows: block.rows,
                 cols: block.columns,
                 operations: tape.operations_of(index),
-                operations_unshared: unshared_operations(&equations.graph, &block.entries),
+                operations_unshared: unshared_operations(graph, &block.entries),
             });
         }
     }
@@ -68,7 +68,8 @@ pub fn render(equations: &Equations, tapes: &[Tape], only: &[String], format: Te
     let mut text = String::new();
     let repeating = |function: &Function| REPEATING.iter().any(|entry| entry.name() == function.name);
     let asked = |function: &Function| only.iter().any(|name| name.split('.').next() == Some(&function.name));
-    for function in equations.functions.iter().filter(|function| !repeating(function) || asked(function)) {
+    let written = |function: &Function| !repeating(function) || asked(function);
+    for (graph, function) in equations.functions().filter(|(_, function)| written(function)) {
         let chosen: Vec<&Block> = function
             .outputs
             .iter()
@@ -79,7 +80,7 @@ pub fn render(equations: &Equations, tapes: &[Tape], only: &[String], format: Te
             })
             .collect();
         if !chosen.is_empty() {
-            let writer = Writer::new(equations, function, &chosen, format);
+            let writer = Writer::new(equations, (graph, function), &chosen, format);
             writer.write(&mut text, &costs);
         }
     }
@@ -105,19 +106,12 @@ struct Writer<'a> {
 impl<'a> Writer<'a> {
     fn new(
         equations: &'a Equations,
-        function: &'a Function,
+        (graph, function): (&'a Graph, &'a Function),
         chosen: &'a [&'a Block],
         format: TextFormat,
     ) -> Self {
-        let mut writer = Self {
-            graph: &equations.graph,
-            equations,
-            function,
-            chosen,
-            format,
-            steps: Vec::new(),
-            names: HashMap::new(),
-        };
+        let mut writer =
+            Self { graph, equations, function, chosen, format, steps: Vec::new(), names: HashMap::new() };
         writer.choose_steps();
         writer
     }
@@ -219,13 +213,16 @@ impl<'a> Writer<'a> {
         if let Some(name) = block.names.get(index) {
             return name.clone();
         }
-        let read = self.equations.functions.iter().flat_map(|function| &function.inputs).find(|input| {
+        let functions = self.equations.functions();
+        let mut inputs =
+            functions.flat_map(|(graph, function)| function.inputs.iter().map(move |input| (graph, input)));
+        let read = inputs.find(|(_, input)| {
             input.entries.len() == block.entries.len()
                 && (input.name == block.name || format!("{}_dot", input.name) == block.name)
         });
-        let symbol = read.and_then(|input| self.graph.as_symbol(input.entries[index]));
+        let symbol = read.and_then(|(graph, input)| Some((graph, graph.as_symbol(input.entries[index])?)));
         match symbol {
-            Some(symbol) => self.graph.symbol_name(symbol).to_owned(),
+            Some((graph, symbol)) => graph.symbol_name(symbol).to_owned(),
             None if block.columns > 1 => {
                 format!("{},{}", index / block.columns + 1, index % block.columns + 1)
             }

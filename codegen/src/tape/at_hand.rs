@@ -1,20 +1,18 @@
 //! Entry points by tapes as the derivation made them, each lowered when it is first asked for: looks at a state or two ask for few.
 //! In: equations. Out: a [`System`]. Never knows who looks.
 
-use std::cell::RefCell;
-use std::sync::OnceLock;
+use std::cell::{OnceCell, RefCell};
 
 use linkwear_runtime::{Entry, Sizes, System};
 
-use crate::derive::Equations;
+use crate::derive::{Block, Equations, Function};
 
 use super::Routine;
-use super::groups::of_group;
+use super::groups::{WhenAsked, of_group};
 use super::lower::lower_function;
 
-/// What has been lowered: by a function, its routine and that of the one that goes on from it.
-#[derive(Clone, Debug, Default)]
-pub struct Lowered([OnceLock<Vec<Routine>>; Entry::ALL.len()]);
+/// What has been lowered.
+pub type Lowered = WhenAsked<Routine>;
 
 /// Equations, to be evaluated at once.
 #[derive(Debug)]
@@ -22,6 +20,8 @@ pub struct AtHand<'a> {
     equations: &'a Equations,
     lowered: &'a Lowered,
     sizes: Sizes,
+    /// The position residuals of all rows and their Jacobian by all speeds alone.
+    rows: OnceCell<Routine>,
     /// Its length is known when a function is lowered, too late for those who ask for the sizes.
     workspace: RefCell<Vec<f64>>,
 }
@@ -29,26 +29,46 @@ pub struct AtHand<'a> {
 impl<'a> AtHand<'a> {
     /// What was lowered before is not lowered again.
     pub fn new(equations: &'a Equations, lowered: &'a Lowered, sizes: Sizes) -> Self {
-        let workspace = RefCell::default();
-        let mut system = Self { equations, lowered, sizes: Sizes { workspace: 0, ..sizes }, workspace };
+        let (rows, workspace) = (OnceCell::new(), RefCell::default());
+        let mut system = Self { equations, lowered, sizes: Sizes { workspace: 0, ..sizes }, rows, workspace };
         // Without contacts nothing is held.
         if sizes.contacts > 0 {
-            system.sizes.held = system.routine(Entry::Contacts).outputs() - sizes.output(Entry::Contacts);
+            system.sizes = system.sizes.with_held(system.routine(Entry::Contacts).outputs());
         }
         system
     }
 
-    fn routine(&self, entry: Entry) -> &Routine {
-        let functions = &self.equations.functions;
-        let at = entry as usize;
-        let goes_on = usize::from(functions[at].goes_on);
-        let first = at - goes_on;
-        let routines = self.lowered.0[first].get_or_init(|| {
-            let next = functions.get(first + 1).filter(|next| next.goes_on);
-            let lower = |function: &_| lower_function(&self.equations.graph, function);
-            of_group((&functions[first], next), &lower).iter().map(Routine::for_a_look).collect()
+    /// Of the answer of [`Entry::EquationsOfMotion`] the position residuals and the Jacobian, bit by bit: an analysis asks for them
+    /// hundreds of times, and they are a small part of it.
+    pub fn rows(&self, input: &[f64]) -> Vec<f64> {
+        let routine = self.rows.get_or_init(|| {
+            #[expect(clippy::expect_used, reason = "the derivation makes a function for every entry")]
+            let (graph, whole) =
+                self.equations.function(Entry::EquationsOfMotion).expect("a function for every entry");
+            let is_of_rows = |block: &&Block| ["phi", "phi_q"].contains(&&*block.name);
+            let outputs = whole.outputs.iter().filter(is_of_rows).cloned().collect();
+            Routine::for_a_look(&lower_function(graph, &Function { outputs, ..whole.clone() }))
         });
-        &routines[goes_on]
+        let mut output = vec![0.0; routine.outputs()];
+        self.run(routine, input, &mut output);
+        output
+    }
+
+    fn run(&self, routine: &Routine, input: &[f64], output: &mut [f64]) {
+        let mut workspace = self.workspace.borrow_mut();
+        if workspace.len() < routine.workspace() {
+            workspace.resize(routine.workspace(), 0.0);
+        }
+        routine.run(input, output, &mut workspace);
+    }
+
+    fn routine(&self, entry: Entry) -> &Routine {
+        let routine = self.lowered.get(self.equations, entry, |(graph, group)| {
+            let lower = |function: &_| lower_function(graph, function);
+            of_group(group, &lower).iter().map(Routine::for_a_look).collect()
+        });
+        #[expect(clippy::expect_used, reason = "the derivation makes a function for every entry")]
+        routine.expect("a function for every entry")
     }
 }
 
@@ -58,11 +78,6 @@ impl System<f64> for AtHand<'_> {
     }
 
     fn evaluate(&self, entry: Entry, input: &[f64], output: &mut [f64], _: &mut [f64]) {
-        let routine = self.routine(entry);
-        let mut workspace = self.workspace.borrow_mut();
-        if workspace.len() < routine.workspace() {
-            workspace.resize(routine.workspace(), 0.0);
-        }
-        routine.run(input, output, &mut workspace);
+        self.run(self.routine(entry), input, output);
     }
 }

@@ -221,10 +221,10 @@ mod tests {
         let first = vec![Block::vector("x", [a])];
         let second = vec![Block::vector("x", [a]), Block::vector("late", [b])];
         let functions = vec![
-            function("first", first, vec![Block::vector("answer", [answer])], false),
-            function("second", second, vec![Block::vector("results", results)], true),
+            function("contacts", first, vec![Block::vector("answer", [answer])], false),
+            function("derivative", second, vec![Block::vector("results", results)], true),
         ];
-        let tapes = lower(&Equations { graph: g.into_graph(), functions });
+        let tapes = lower(&Equations::of(g.into_graph(), functions));
         let [first, second] = &tapes[..] else { panic!("two tapes: {}", tapes.len()) };
         assert_eq!((verify(first), verify(second)), (Ok(()), Ok(())));
         assert_eq!((first.input_len(), first.output_len()), (1, 2));

@@ -1,30 +1,63 @@
-//! Which functions are lowered together, and on which cores. In: functions, how one is lowered. Out: tapes, in the order of the
+//! Which functions are lowered together, and what is made of them when. In: functions, how one is lowered. Out: tapes, in the order of the
 //! functions. Never knows graphs.
 
-use std::thread::available_parallelism;
+use std::sync::OnceLock;
+
+use linkwear_runtime::Entry;
 
 use crate::derive::{Equations, Function};
+use crate::expr::Graph;
 
 use super::cut::{Joined, cut};
-use super::{Tape, side_by_side, verify};
+use super::{Tape, verify};
 
 /// A function, and the one that goes on from it.
 pub type Group<'a> = (&'a Function, Option<&'a Function>);
 
-/// All functions, in order.
-pub fn groups(equations: &Equations) -> Vec<Group<'_>> {
-    let mut functions = equations.functions.iter().peekable();
-    let mut groups = Vec::new();
-    while let Some(function) = functions.next() {
-        groups.push((function, functions.next_if(|next| next.goes_on)));
-    }
-    groups
+/// The function of an entry and the one that goes on from it, with their graph.
+pub fn group(equations: &Equations, entry: Entry) -> Option<(&Graph, Group<'_>)> {
+    let (graph, function) = equations.function(entry)?;
+    Some((graph, (function, equations.next(entry))))
 }
 
-/// Every group by itself, some of them on other cores: which are changes no byte.
-pub fn in_threads(groups: &[Group<'_>], lower: &(dyn Fn(&Function) -> Tape + Sync)) -> Vec<Tape> {
-    let cores = available_parallelism().map_or(1, usize::from);
-    side_by_side(groups, cores, |group| of_group(*group, lower)).into_iter().flatten().collect()
+/// All functions, in order, with their graphs.
+pub fn groups(equations: &Equations) -> impl Iterator<Item = (&Graph, Group<'_>)> {
+    let first = Entry::ALL.into_iter().filter(|entry| !equations.goes_on(*entry));
+    first.filter_map(|entry| group(equations, entry))
+}
+
+/// What is made of every function when it is first asked for, and of the one that goes on from it with it.
+#[derive(Clone, Debug)]
+pub struct WhenAsked<T>([OnceLock<Vec<T>>; Entry::ALL.len()]);
+
+impl<T> Default for WhenAsked<T> {
+    fn default() -> Self {
+        Self(Default::default())
+    }
+}
+
+impl<T> WhenAsked<T> {
+    /// Of the function of an entry.
+    pub fn get(
+        &self,
+        equations: &Equations,
+        entry: Entry,
+        make: impl FnOnce((&Graph, Group<'_>)) -> Vec<T>,
+    ) -> Option<&T> {
+        let place = usize::from(equations.goes_on(entry));
+        let first = entry as usize - place;
+        let made = &self.0[first];
+        if made.get().is_none() {
+            let group = group(equations, Entry::ALL[first])?;
+            made.get_or_init(|| make(group));
+        }
+        made.get()?.get(place)
+    }
+
+    /// Of the functions of a group, by its first entry, if they were asked for.
+    pub fn known(&self, first: Entry) -> Option<&[T]> {
+        self.0[first as usize].get().map(Vec::as_slice)
+    }
 }
 
 /// One tape for every function: of a function and the one that goes on from it as one, then cut.

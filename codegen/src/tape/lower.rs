@@ -8,10 +8,9 @@
 use rustc_hash::FxHashMap;
 
 use crate::derive::{Block, Equations, Function};
-use crate::expr::{Binary, ExprId, Graph, Node, Signs, Unary, shortened};
+use crate::expr::{Binary, ExprId, Graph, Node, Signs, Unary};
 
-use super::groups::{groups, in_threads, of_group};
-use super::signs::with_fewer_signs;
+use super::groups::{groups, of_group};
 use super::{Op, Operand, Statement, Tape, verify};
 
 /// Above this many live nodes order serves the machine, not the reader.
@@ -20,30 +19,8 @@ const READABLE: usize = 3000;
 /// Lowers every function of a set of equations, operation by operation as the derivation made them.
 pub fn lower(equations: &Equations) -> Vec<Tape> {
     groups(equations)
-        .into_iter()
-        .flat_map(|group| of_group(group, &|function| lower_function(&equations.graph, function)))
+        .flat_map(|(graph, group)| of_group(group, &|function| lower_function(graph, function)))
         .collect()
-}
-
-/// Lowers every function in as few operations as passes over its graph find; other values by rounding only.
-pub fn lower_short(equations: &Equations) -> Vec<Tape> {
-    in_threads(&groups(equations), &|function| {
-        let flat = |blocks: &[Block]| -> Vec<ExprId> {
-            blocks.iter().flat_map(|block| block.entries.iter().copied()).collect()
-        };
-        let short = shortened(&equations.graph, &flat(&function.inputs), &flat(&function.outputs));
-        let placed = |blocks: &[Block], ids: &[ExprId]| -> Vec<Block> {
-            let mut ids = ids.iter().copied();
-            let with = |block: &Block| Block {
-                entries: ids.by_ref().take(block.entries.len()).collect(),
-                ..block.clone()
-            };
-            blocks.iter().map(with).collect()
-        };
-        let inputs = placed(&function.inputs, &short.inputs);
-        let outputs = placed(&function.outputs, &short.roots);
-        with_fewer_signs(lower_function(&short.graph, &Function { inputs, outputs, ..function.clone() }))
-    })
 }
 
 /// Lowers a function, operation by operation as the graph has it.

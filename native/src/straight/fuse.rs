@@ -4,7 +4,7 @@
 use std::cell::RefCell;
 
 use linkwear_runtime::{Entry, Evaluate, StepPlan};
-use linkwear_tape::{Tape, verify};
+use linkwear_tape::{Tapes, verify};
 
 use super::lower::Lowered;
 use super::number::{Number, Recorder};
@@ -34,12 +34,18 @@ impl Part {
     }
 }
 
-/// What a part of a plan asks for; `tapes` are those of all entries.
+/// What plans ask for.
+const PLANNED: [Entry; 4] = [Entry::Closure, Entry::Energy, Entry::Contacts, Entry::Derivative];
+
+/// What a part of a plan asks for.
 ///
 /// # Errors
-/// A tape's first defect.
-pub(crate) fn fuse(tapes: &[Tape], plan: &StepPlan, part: Part) -> Result<Lowered, String> {
-    tapes.iter().try_for_each(verify)?;
+/// A tape's first defect, or that there is none.
+pub(crate) fn fuse(tapes: &dyn Tapes, plan: &StepPlan, part: Part) -> Result<Lowered, String> {
+    for entry in PLANNED {
+        let tape = tapes.tape(entry).ok_or_else(|| format!("there is no tape of `{}`", entry.name()))?;
+        verify(tape)?;
+    }
     let recorder = Recorder::default();
     let answers = RefCell::default();
     let evaluate: Evaluate<'_, Number<'_>> = &|entry, input| ask(tapes, &answers, entry, input);
@@ -66,12 +72,13 @@ fn inputs(recorder: &Recorder, count: usize) -> Vec<Number<'_>> {
 
 /// Answers an entry. One answer is computed after the other: taken together, their values would crowd the registers.
 fn ask<'g>(
-    tapes: &[Tape],
+    tapes: &dyn Tapes,
     answers: &RefCell<Vec<Number<'g>>>,
     entry: Entry,
     input: &[Number<'g>],
 ) -> Vec<Number<'g>> {
-    let answer = tapes[entry as usize].evaluate(&|index| input[index as usize]);
+    let tape = tapes.tape(entry);
+    let answer = tape.map(|tape| tape.evaluate(&|index| input[index as usize])).unwrap_or_default();
     answers.borrow_mut().extend(&answer);
     answer
 }

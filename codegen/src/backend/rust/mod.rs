@@ -205,7 +205,7 @@ mod tests {
                 goes_on: false,
             })
             .collect();
-        lower(&Equations { graph: g.into_graph(), functions })
+        lower(&Equations::of(g.into_graph(), functions))
     }
 
     #[test]

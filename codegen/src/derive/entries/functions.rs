@@ -327,11 +327,11 @@ impl<'g> Deriver<'g> {
         entries > MOST_OF_MASS && !self.whole_equations
     }
 
-    /// `solved`: the forward dynamics, whose rows these are.
+    /// `closed`: whether rows are taken with their biases of closed states, as the forward dynamics takes them.
     pub(super) fn equations_of_motion(
         &self,
         (dynamic, masses): (&Instant<'g>, &[LinkMass<'g>]),
-        solved: Option<&Forward<'g>>,
+        closed: bool,
     ) -> Function {
         let g = self.geometry.g;
         let n = self.v_all.len();
@@ -360,7 +360,6 @@ impl<'g> Deriver<'g> {
         g.begin_section("loop Jacobian");
         // Dropped rows too: they stand in where the kept ones happen to lose rank.
         let all = vec![true; self.keep.len()];
-        let closed = solved.is_some_and(|solved| solved.closed);
         let forces = std::cell::OnceCell::new();
         let by = |cuts: &[CutRows<'g>], counts: bool| {
             let rows: Vec<_> = kept_rows(motion, (cuts, &instant.couplings), &all)

@@ -22,7 +22,7 @@ use super::geometry::Geometry;
 use super::linkage::Linkage;
 use super::linkage_build::linkage;
 use super::plan::Guide;
-use super::{Equations, Function};
+use super::{Derivation, Equations, Function};
 use deriver::{Deriver, inputs};
 use functions::function;
 pub use row_axes::{shorter_in_ground, shorter_off_balls, splits_plane_rows};
@@ -30,7 +30,7 @@ pub use row_axes::{shorter_in_ground, shorter_off_balls, splits_plane_rows};
 /// The result: equations, their layout, and what they are called.
 #[derive(Clone, Debug)]
 pub struct Derived {
-    /// Functions over one graph, in the order of [`Entry::ALL`].
+    /// What was asked for; see [`Purpose`].
     pub equations: Equations,
     /// Layout (`workspace` is still zero: back ends know it).
     pub sizes: Sizes,
@@ -38,20 +38,23 @@ pub struct Derived {
     pub description: Description,
     /// The tree of links it was derived on.
     pub linkage: Linkage,
+    /// Whether the forward dynamics takes all rows with their biases of closed states.
+    pub closed: bool,
 }
 
 /// How much is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// All entry points.
-    Everything,
-    /// All entry points, and columns of where every body is, for pictures.
+    /// What runs ask for: all entry points but [`Entry::EquationsOfMotion`], which [`equations_of_motion`] derives when somebody asks.
+    /// It is among the others where forces depend on their solution.
+    Run,
+    /// The same with columns of where every body is, for pictures.
     Picture,
-    /// Positions, Jacobians and columns only, while redundant rows are still in: no elimination.
+    /// Positions, equations of motion and columns, while redundant rows are still in: no elimination.
     Analysis,
 }
 
-/// Derives all entry points; without a guide all constraint rows are kept.
+/// Derives entry points; without a guide all constraint rows are kept.
 pub fn derive(
     mechanism: &Mechanism,
     topology: &Topology,
@@ -60,14 +63,41 @@ pub fn derive(
 ) -> Derived {
     let linkage = linkage(mechanism, topology, &mechanism.parameter_values());
     let scope = Scope::new();
-    let (functions, sizes, description) = {
-        scope.begin_section("prescribed motion");
-        let (inputs, given) = inputs(&scope, mechanism);
-        let geometry = Geometry { g: &scope, mechanism, linkage: &linkage, inputs: &inputs };
-        let with_own = purpose != Purpose::Analysis;
-        results(&Deriver::new(geometry, given, guide, with_own), purpose)
-    };
-    Derived { equations: Equations { graph: scope.into_graph(), functions }, sizes, description, linkage }
+    let with_own = purpose != Purpose::Analysis;
+    let results = |deriver: &Deriver<'_>| results(deriver, purpose);
+    let (functions, closed, sizes, description) =
+        by_deriver(&scope, (mechanism, &linkage), guide, with_own, results);
+    Derived { equations: Equations::of(scope.into_graph(), functions), sizes, description, linkage, closed }
+}
+
+/// Derives [`Entry::EquationsOfMotion`] by itself, where it is not among what runs ask for. `closed`: see [`Derived::closed`].
+pub fn equations_of_motion(
+    mechanism: &Mechanism,
+    topology: &Topology,
+    guide: &Guide,
+    closed: bool,
+) -> Derivation {
+    let linkage = linkage(mechanism, topology, &mechanism.parameter_values());
+    let scope = Scope::new();
+    let function = by_deriver(&scope, (mechanism, &linkage), Some(guide), true, |deriver| {
+        let masses = deriver.masses();
+        let dynamic = deriver.instant(deriver.driven_state(&[]));
+        deriver.equations_of_motion((&dynamic, &masses), closed)
+    });
+    Derivation { graph: scope.into_graph(), functions: vec![function] }
+}
+
+fn by_deriver<T>(
+    scope: &Scope,
+    (mechanism, linkage): (&Mechanism, &Linkage),
+    guide: Option<&Guide>,
+    with_own: bool,
+    by: impl FnOnce(&Deriver<'_>) -> T,
+) -> T {
+    scope.begin_section("prescribed motion");
+    let (inputs, given) = inputs(scope, mechanism);
+    let geometry = Geometry { g: scope, mechanism, linkage, inputs: &inputs };
+    by(&Deriver::new(geometry, given, guide, with_own))
 }
 
 /// Puts into the outputs of all functions what stands for symbols.
@@ -81,15 +111,15 @@ fn insert<'g>(g: &'g Scope, functions: &mut [Function], values: &[(Expr<'g>, Exp
     }
 }
 
-/// All functions, in the order of [`Entry::ALL`], with their layout and names.
-fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, Description) {
+/// Functions, in the order of [`Entry::ALL`], and [`Derived::closed`], with layout and names.
+fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, bool, Sizes, Description) {
     let masses = deriver.masses();
     let dynamic = deriver.instant(deriver.driven_state(&[]));
     let prescribed = deriver.prescribed();
     let (start, start_values) = deriver.start();
     let nothing = |entry| function(entry, "", Vec::new(), Vec::new());
     let solved = match purpose {
-        Purpose::Everything | Purpose::Picture => Some(deriver.solution(&dynamic, &masses)),
+        Purpose::Run | Purpose::Picture => Some(deriver.solution(&dynamic, &masses)),
         Purpose::Analysis => None,
     };
     let (solved, alone) =
@@ -109,25 +139,33 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, Sizes, De
     let roots: Vec<ExprId> = roots.flat_map(|block| block.entries.iter().copied()).collect();
     let switches = g.switches(&g.with_ids(&roots, &responses));
     let (observe, channels) = deriver.observe((&dynamic, &masses), purpose == Purpose::Picture, &switches);
-    let equations_of_motion = deriver.equations_of_motion((&dynamic, &masses), solved);
     let contacts = deriver.contacts(&dynamic);
     let derivative =
         solved.map_or_else(|| nothing(Entry::Derivative), |solved| deriver.derivative(solved, &state_rates));
-    let mut functions = vec![
-        prescribed,
-        start,
-        forward_dynamics,
-        accelerations,
-        rates,
-        closure,
-        energy,
-        observe,
+    // They want the solution then, which is here.
+    let with_equations = purpose == Purpose::Analysis || !responses.is_empty();
+    let closed = solved.is_some_and(|solved| solved.closed);
+    let equations_of_motion =
+        with_equations.then(|| deriver.equations_of_motion((&dynamic, &masses), closed));
+    let functions = [
+        Some(prescribed),
+        Some(start),
+        Some(forward_dynamics),
+        Some(accelerations),
+        Some(rates),
+        Some(closure),
+        Some(energy),
+        Some(observe),
         equations_of_motion,
-        contacts,
-        derivative,
+        Some(contacts),
+        Some(derivative),
     ];
-    let in_order = functions.iter().zip(Entry::ALL).all(|(function, entry)| function.name == entry.name());
-    debug_assert!(in_order);
+    let named = |(function, entry): (&Option<Function>, Entry)| {
+        function.as_ref().is_none_or(|function| function.name == entry.name())
+    };
+    debug_assert!(functions.iter().zip(Entry::ALL).all(named));
+    let mut functions: Vec<Function> = functions.into_iter().flatten().collect();
     insert(g, &mut functions, &responses);
-    (functions, deriver.sizes(channels.len()), deriver.description(&start_values, rows, channels))
+    let sizes = deriver.sizes(channels.len());
+    (functions, closed, sizes, deriver.description(&start_values, rows, channels))
 }
