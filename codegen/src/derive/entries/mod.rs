@@ -142,7 +142,7 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, bool, Siz
     let contacts = deriver.contacts(&dynamic);
     let derivative =
         solved.map_or_else(|| nothing(Entry::Derivative), |solved| deriver.derivative(solved, &state_rates));
-    // They want the solution then, which is here.
+    // Forces that ask for the solution stand in them, too, and it is here.
     let with_equations = purpose == Purpose::Analysis || !responses.is_empty();
     let closed = solved.is_some_and(|solved| solved.closed);
     let equations_of_motion =
