@@ -1,6 +1,8 @@
 //! A simulation advanced from outside: the bits of `simulate`, states put back, parameters changed on the way.
 
-use linkwear::mechanism::Mechanism;
+use linkwear::backend::Backend;
+use linkwear::mechanism::{Mechanism, read_source};
+use linkwear_codegen::Options;
 use linkwear_runtime::{
     Description, Integrator, RunError, Settings, SetupError, Simulation, SimulationState, Span, System,
     Watch, simulate,
@@ -47,6 +49,27 @@ fn rows(simulation: &mut Simulation<'_>, times: impl Iterator<Item = f64>) -> Ve
         simulation.values().iter().map(|value| value.to_bits()).collect()
     };
     times.map(&mut row).collect()
+}
+
+/// Machine code tells slopes of several states at once, once it was asked often, compiled code never does.
+#[test]
+fn parameters_that_change_on_the_way_count_on_every_back_end() {
+    let source = read_source("mechanisms/rssr_flexible.toml".as_ref()).expect("a file");
+    let bits = |backend| {
+        let mechanism = Mechanism::compile(&source, &Options::default(), backend).ok()?;
+        let made = Made { system: mechanism.system(), mechanism };
+        let integrator = Integrator::Rodas5P { tolerance: 1e-8, max_step: None };
+        let mut simulation = made.start(&Settings::new(integrator, Span::Time(1.5), 2));
+        let mut all = rows(&mut simulation, [1.0].into_iter());
+        let mut parameters = made.parameters();
+        parameters[made.place("c_rocker")] *= 3.0;
+        simulation.set_parameters(&parameters).expect("another damper");
+        all.extend(rows(&mut simulation, [1.1, 1.2].into_iter()));
+        Some(all)
+    };
+    let compiled = bits(Backend::Compiled).expect("compiled code");
+    // Where this processor has no machine code there is nothing to compare.
+    assert!(bits(Backend::Native).is_none_or(|native| native == compiled));
 }
 
 #[test]

@@ -21,15 +21,11 @@ impl<'a> Slopes<'a> {
         let sizes = evaluator.sizes();
         (sizes.contacts == 0 && system.answers(Entry::Derivative)).then(|| {
             let zeros = |length| vec![[0.0; STATES]; length];
-            let mut question = zeros(sizes.input(Entry::Derivative));
-            for (place, value) in question.iter_mut().zip(evaluator.parameters()) {
-                *place = [*value; STATES];
-            }
             Self {
                 system,
                 sizes,
                 inputs: evaluator.first_input(),
-                question,
+                question: zeros(sizes.input(Entry::Derivative)),
                 answer: zeros(sizes.output(Entry::Derivative)),
                 workspace: zeros(system.workspace()),
             }
@@ -45,6 +41,10 @@ impl<'a> Slopes<'a> {
         let (state, all) = (coordinates + speeds, self.sizes.flat_state());
         let (known, asked) = self.question.split_at_mut(parameters);
         let (time, asked) = asked.split_at_mut(1);
+        // As they are now: a run may be given others on its way.
+        for (place, value) in known.iter_mut().zip(evaluator.parameters()) {
+            *place = [*value; STATES];
+        }
         let rows: [&[f64]; STATES] = std::array::from_fn(|lane| {
             // Places without a state ask for the first one again, and nobody reads what they give.
             let row = if lane < times.len() { lane } else { 0 };
