@@ -20,14 +20,15 @@ const SEVERAL_THREADS: usize = 1000;
 /// Threads at most: the longest of the tapes takes a fifth of the time of all.
 const MOST_THREADS: usize = 4;
 
+/// Threads that writing tapes is worth which are made on the way.
+fn threads() -> usize {
+    available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS))
+}
+
 /// Threads that writing these tapes is worth.
-fn threads(tapes: &[Tape]) -> usize {
+fn threads_for(tapes: &[Tape]) -> usize {
     let operations: usize = tapes.iter().map(|tape| tape.statements.len()).sum();
-    if operations < SEVERAL_THREADS {
-        1
-    } else {
-        available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS))
-    }
+    if operations < SEVERAL_THREADS { 1 } else { threads() }
 }
 
 /// Functions of one mechanism, in the order of their tapes.
@@ -36,7 +37,7 @@ pub(crate) struct Functions(Code);
 impl Functions {
     /// For one state, or so many side by side as the processor has code for.
     pub(crate) fn new<const LANES: usize>(tapes: &[Tape]) -> Result<Self, Refusal> {
-        Self::for_target::<LANES>(tapes, processor::target::<LANES>()?)
+        Self::of_all::<LANES>(tapes, processor::target::<LANES>()?)
     }
 
     /// Of entries, in their order. Each tape is asked for where its code is written: those that are made by then are made side by
@@ -45,26 +46,29 @@ impl Functions {
         tapes: &dyn Tapes,
         entries: &[Entry],
     ) -> Result<Self, Refusal> {
-        let (target, functions) = (processor::target::<LANES>()?, processor::functions::<LANES>());
-        let threads = available_parallelism().map_or(1, |threads| threads.get().min(MOST_THREADS));
-        let written = side_by_side(entries, threads, |entry| {
-            let tape = tapes.tape(*entry).ok_or_else(|| Refusal::missing(*entry))?;
-            write(tape, target, &functions)
-        });
-        Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
+        let tape = |entry: &Entry| tapes.tape(*entry).ok_or_else(|| Refusal::missing(*entry));
+        Self::for_target::<LANES, _>(entries, threads(), tape, processor::target::<LANES>()?)
     }
 
     /// For so many states side by side of which every input and output is a column.
     pub(crate) fn of_columns<const LANES: usize>(tapes: &[Tape]) -> Result<Self, Refusal> {
-        Self::for_target::<LANES>(tapes, processor::target_of_columns::<LANES>()?)
+        Self::of_all::<LANES>(tapes, processor::target_of_columns::<LANES>()?)
     }
 
-    fn for_target<const LANES: usize>(
-        tapes: &[Tape],
+    fn of_all<const LANES: usize>(tapes: &[Tape], target: impl Processor + Sync) -> Result<Self, Refusal> {
+        let all: Vec<&Tape> = tapes.iter().collect();
+        Self::for_target::<LANES, _>(&all, threads_for(tapes), |tape| Ok(*tape), target)
+    }
+
+    /// Of tapes that are found by items, on so many threads.
+    fn for_target<'t, const LANES: usize, I: Sync>(
+        items: &[I],
+        threads: usize,
+        tape: impl Fn(&I) -> Result<&'t Tape, Refusal> + Sync,
         target: impl Processor + Sync,
     ) -> Result<Self, Refusal> {
         let functions = processor::functions::<LANES>();
-        let written = side_by_side(tapes, threads(tapes), |tape| write(tape, target, &functions));
+        let written = side_by_side(items, threads, |item| write(tape(item)?, target, &functions));
         Code::new(written.into_iter().collect::<Result<_, _>>()?).map(Self)
     }
 

@@ -34,10 +34,7 @@ impl<const N: usize> Lanes<N> {
     /// # Errors
     /// If this processor or this system cannot run it, or a tape makes no sense.
     pub fn new(tapes: &[Tape], sizes: Sizes) -> Result<Self, Refusal> {
-        if let Some(entry) = Entry::ALL.get(tapes.len()) {
-            return Err(Refusal::missing(*entry));
-        }
-        let functions = Functions::new::<N>(tapes)?;
+        let functions = Functions::of_entries::<N>(&tapes, &Entry::ALL)?;
         let sizes = Sizes { workspace: functions.workspace().div_ceil(N), ..sizes };
         Ok(Self { functions: Arc::new(functions), sizes })
     }

@@ -58,7 +58,7 @@ pub struct Native {
     /// By entry, which of these answers it.
     places: [Option<usize>; Entry::ALL.len()],
     seldom: Arc<Seldom>,
-    several: Several,
+    several: Arc<OnceLock<Option<Several>>>,
     laws: Option<Laws>,
 }
 
@@ -79,34 +79,21 @@ struct Stages {
     functions: OnceLock<Option<Functions>>,
 }
 
-/// What runs ask at several states at once.
-#[derive(Clone)]
+/// What runs ask at several states at once. Written when it is asked for first: short runs do not.
 struct Several {
-    tapes: Arc<dyn Tapes>,
+    functions: Functions,
     entries: &'static [Entry],
-    /// Written when they are asked for first: short runs do not.
-    functions: Arc<OnceLock<Option<Functions>>>,
 }
 
 /// Columns; and the derivatives of slopes by states, which stiff motion is integrated with. Contacts are integrated by other methods.
 const OF_SEVERAL: [Entry; 2] = [Entry::Observe, Entry::Derivative];
 
-/// What every run asks for, the longest first, for they are written side by side; contacts are there with the derivative.
-const OFTEN: [Entry; 7] = [
-    Entry::Observe,
-    Entry::Derivative,
-    Entry::Energy,
-    Entry::Closure,
-    Entry::Start,
-    Entry::Prescribed,
-    Entry::Contacts,
-];
-
-/// The same with joints that have clearance: how stiff their contacts are is asked where a run begins.
-const OFTEN_WITH_CONTACTS: [Entry; 8] = [
-    Entry::Observe,
-    Entry::Derivative,
+/// What every run asks for, those that take long first, for they are written side by side; contacts are there with the derivative.
+/// Accelerations tell how stiff contacts are where a run begins: without joints with clearance few ask for them.
+const OFTEN: [Entry; 8] = [
     Entry::Accelerations,
+    Entry::Observe,
+    Entry::Derivative,
     Entry::Energy,
     Entry::Closure,
     Entry::Start,
@@ -148,21 +135,15 @@ impl Native {
         sizes: Sizes,
         description: &Description,
     ) -> Result<Self, Refusal> {
-        let entries: &[Entry] = if sizes.contacts > 0 { &OFTEN_WITH_CONTACTS } else { &OFTEN };
-        Self::written(tapes, entries, sizes)?.and_laws(description)
+        Self::written(tapes, &OFTEN[usize::from(sizes.contacts == 0)..], sizes)?.and_laws(description)
     }
 
     fn written(tapes: Arc<dyn Tapes>, entries: &'static [Entry], sizes: Sizes) -> Result<Self, Refusal> {
         let functions = Functions::of_entries::<1>(&*tapes, entries)?;
         let held = tapes.tape(Entry::Contacts).map_or(0, Tape::output_len);
         let sizes = Sizes { workspace: functions.workspace(), ..sizes.with_held(held) };
-        let several = Several {
-            tapes: Arc::clone(&tapes),
-            entries: &OF_SEVERAL[..if sizes.contacts > 0 { 1 } else { 2 }],
-            functions: Arc::default(),
-        };
         let places = Entry::ALL.map(|entry| entries.iter().position(|known| *known == entry));
-        let (functions, seldom) = (Arc::new(functions), Arc::default());
+        let (functions, seldom, several) = (Arc::new(functions), Arc::default(), Arc::default());
         Ok(Self { sizes, tapes, functions, places, seldom, several, laws: None })
     }
 
@@ -192,7 +173,12 @@ impl System<f64> for Native {
     }
 
     fn side_by_side(&self) -> Option<&dyn SideBySide<f64>> {
-        self.several.written().map(|_| &self.several as &dyn SideBySide<f64>)
+        let written = self.several.get_or_init(|| {
+            let entries = &OF_SEVERAL[..if self.sizes.contacts > 0 { 1 } else { 2 }];
+            let functions = Functions::of_entries::<STATES>(&*self.tapes, entries).ok()?;
+            Some(Several { functions, entries })
+        });
+        written.as_ref().map(|several| several as &dyn SideBySide<f64>)
     }
 
     fn laws_inside(&self) -> Option<&dyn WithLaws<f64>> {
@@ -230,20 +216,13 @@ impl InnerStages<f64> for Functions {
     }
 }
 
-impl Several {
-    fn written(&self) -> Option<&Functions> {
-        let write = || Functions::of_entries::<STATES>(&*self.tapes, self.entries).ok();
-        self.functions.get_or_init(write).as_ref()
-    }
-}
-
 impl SideBySide<f64> for Several {
     fn answers(&self, entry: Entry) -> bool {
         self.entries.contains(&entry)
     }
 
     fn workspace(&self) -> usize {
-        self.written().map_or(0, |functions| functions.workspace().div_ceil(STATES))
+        self.functions.workspace().div_ceil(STATES)
     }
 
     fn evaluate(
@@ -255,8 +234,6 @@ impl SideBySide<f64> for Several {
     ) {
         let (input, output) = (input.as_flattened(), output.as_flattened_mut());
         let place = self.entries.iter().position(|known| *known == entry).unwrap_or(usize::MAX);
-        if let Some(functions) = self.written() {
-            functions.run(place, input, output, workspace.as_flattened_mut());
-        }
+        self.functions.run(place, input, output, workspace.as_flattened_mut());
     }
 }

@@ -176,9 +176,13 @@ impl<'a> Plane<'a> {
     fn turned(&self, other: &Task<'a>) -> Option<Self> {
         let is_equal =
             self.interface == other.held && self.mesh.line(self.family) == other.mesh.line(other.family);
-        let (mass, modes) = (self.mass.clone(), self.modes.clone());
-        let (family, interface) = (other.family, other.held.clone());
-        is_equal.then_some(Self { family, mesh: self.mesh, mass, interface, modes })
+        is_equal.then(|| Self {
+            family: other.family,
+            mesh: self.mesh,
+            mass: self.mass.clone(),
+            interface: self.interface.clone(),
+            modes: self.modes.clone(),
+        })
     }
 
     /// The first `count` modes; with interfaces, the eigenmodes of what they and the static shapes span.

@@ -46,12 +46,8 @@ impl<T> WhenAsked<T> {
     ) -> Option<&T> {
         let place = usize::from(equations.goes_on(entry));
         let first = entry as usize - place;
-        let made = &self.0[first];
-        if made.get().is_none() {
-            let group = group(equations, Entry::ALL[first])?;
-            made.get_or_init(|| make(group));
-        }
-        made.get()?.get(place)
+        let made = || group(equations, Entry::ALL[first]).map(make).unwrap_or_default();
+        self.0[first].get_or_init(made).get(place)
     }
 
     /// Of the functions of a group, by its first entry, if they were asked for.

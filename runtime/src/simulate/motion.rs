@@ -95,8 +95,8 @@ pub(super) struct ConstrainedMotion<'a> {
     pub(super) energy_scale: f64,
     /// How many times slopes of several states are still told one by one before they are told at once: code for several is
     /// written when it is asked for first.
-    alone: Option<u32>,
-    /// What tells them, once they were asked for.
+    alone: u32,
+    /// What tells them then.
     slopes: Option<Slopes<'a>>,
     /// Sizes of deflections, if steps are to go by them.
     modal: ModalSizes,
@@ -126,7 +126,7 @@ impl<'a> ConstrainedMotion<'a> {
             arm: 1.0,
             sizes: vec![1.0; sizes.speeds],
             energy_scale: ENERGY_FLOOR,
-            alone: None,
+            alone: ASKED_ALONE,
             slopes: None,
             modal: ModalSizes::default(),
             looseness: 1.0,
@@ -144,7 +144,6 @@ impl<'a> ConstrainedMotion<'a> {
     pub(super) fn judge_modes(&mut self, t: f64, y: &[f64]) {
         let (q, v) = y[..self.first_integral()].split_at(self.coordinates);
         self.modal = ModalSizes::new(&mut self.dynamics.evaluator, (t, q, v));
-        self.alone = Some(ASKED_ALONE);
     }
 
     /// As [`crate::Evaluator::visit_memory`], of all that it stands on too.

@@ -147,24 +147,13 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, bool, Siz
     let closed = solved.is_some_and(|solved| solved.closed);
     let equations_of_motion =
         with_equations.then(|| deriver.equations_of_motion((&dynamic, &masses), closed));
-    let functions = [
-        Some(prescribed),
-        Some(start),
-        Some(forward_dynamics),
-        Some(accelerations),
-        Some(rates),
-        Some(closure),
-        Some(energy),
-        Some(observe),
-        equations_of_motion,
-        Some(contacts),
-        Some(derivative),
-    ];
-    let named = |(function, entry): (&Option<Function>, Entry)| {
-        function.as_ref().is_none_or(|function| function.name == entry.name())
-    };
-    debug_assert!(functions.iter().zip(Entry::ALL).all(named));
-    let mut functions: Vec<Function> = functions.into_iter().flatten().collect();
+    let mut functions =
+        vec![prescribed, start, forward_dynamics, accelerations, rates, closure, energy, observe];
+    functions.extend(equations_of_motion);
+    functions.extend([contacts, derivative]);
+    let is_here = |entry: &Entry| with_equations || *entry != Entry::EquationsOfMotion;
+    let names = Entry::ALL.into_iter().filter(is_here).map(Entry::name);
+    debug_assert!(functions.iter().map(|function| &*function.name).eq(names));
     insert(g, &mut functions, &responses);
     let sizes = deriver.sizes(channels.len());
     (functions, closed, sizes, deriver.description(&start_values, rows, channels))

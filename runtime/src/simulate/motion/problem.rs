@@ -35,11 +35,14 @@ impl Problem for ConstrainedMotion<'_> {
         states: &[f64],
         derivatives: &mut [f64],
     ) -> Result<(), RunError> {
-        self.alone = self.alone.and_then(|left| left.checked_sub(1));
-        if self.alone == Some(0) {
-            let evaluator = &self.dynamics.evaluator;
-            let system = evaluator.system().side_by_side();
-            self.slopes = system.and_then(|system| Slopes::new(system, evaluator));
+        match self.alone.checked_sub(1) {
+            Some(left) => self.alone = left,
+            None if self.slopes.is_none() => {
+                let evaluator = &self.dynamics.evaluator;
+                let system = evaluator.system().side_by_side();
+                self.slopes = system.and_then(|system| Slopes::new(system, evaluator));
+            }
+            None => {}
         }
         let mut slopes = std::mem::take(&mut self.slopes);
         let aside = self.dynamics.aside();
