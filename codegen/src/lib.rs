@@ -27,6 +27,7 @@ pub mod model;
 pub mod preflight;
 pub mod render;
 pub mod source;
+mod sparse_rows;
 pub mod spec;
 pub mod tape;
 

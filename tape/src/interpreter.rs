@@ -3,6 +3,7 @@
 //!
 //! Constants, inputs and registers lie side by side in the workspace, so that an operand is one index.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use linkwear_runtime::{Description, Entry, Scalar, Sizes, System, angle_over_sine, log_coefficient};
@@ -25,6 +26,8 @@ pub struct Routine {
     constants: Vec<f64>,
     inputs: usize,
     outputs: usize,
+    /// Outputs that are always zero, as most entries of large matrices.
+    zeros: Vec<Range<usize>>,
     instructions: Vec<Instruction>,
     workspace: usize,
 }
@@ -88,42 +91,42 @@ impl Routine {
     fn with(tape: &Tape, registers: &Registers) -> Self {
         let mut constants: Vec<f64> = Vec::new();
         let mut positions = std::collections::HashMap::new();
-        // Most of the entries of large matrices are zero.
-        let mut zero = None;
-        let direct = tape.direct.iter().map(|(_, operand)| *operand);
-        for operand in direct.chain(tape.statements.iter().flat_map(Statement::reads)) {
+        let mut zeros: Vec<Range<usize>> = Vec::new();
+        let mut direct: Vec<(u32, Operand)> = Vec::new();
+        for (index, operand) in &tape.direct {
+            let place = *index as usize;
+            match zeros.last_mut() {
+                _ if !is_zero(operand) => direct.push((*index, *operand)),
+                Some(last) if last.end == place => last.end += 1,
+                _ => zeros.push(place..place + 1),
+            }
+        }
+        let of_direct = direct.iter().map(|(_, operand)| *operand);
+        for operand in of_direct.chain(tape.statements.iter().flat_map(Statement::reads)) {
             if let Operand::Constant(number) = operand {
-                if zero.is_some() && number.to_bits() == 0 {
-                    continue;
-                }
-                let position = *positions.entry(number.to_bits()).or_insert_with(|| {
+                positions.entry(number.to_bits()).or_insert_with(|| {
                     constants.push(number);
                     constants.len() - 1
                 });
-                if number.to_bits() == 0 {
-                    zero = Some(position);
-                }
             }
         }
         let (first_input, first_register) = (constants.len(), constants.len() + tape.input_len());
         let place = |operand: Operand| -> u32 {
             let index = match operand {
-                Operand::Constant(number) => match zero {
-                    Some(zero) if number.to_bits() == 0 => zero,
-                    _ => positions[&number.to_bits()],
-                },
+                Operand::Constant(number) => positions[&number.to_bits()],
                 Operand::Input(index) => first_input + index as usize,
                 Operand::Value(value) => first_register + registers.of_value[value as usize] as usize,
             };
             #[expect(clippy::expect_used, reason = "limits::EXPRESSIONS is far below the reach of 32 bits")]
             u32::try_from(index).expect("a workspace fits 32-bit indices")
         };
-        let mut instructions = Vec::with_capacity(tape.statements.len() + tape.output_len());
+        let stores: usize = tape.statements.iter().map(|statement| statement.stores.len()).sum();
+        let mut instructions = Vec::with_capacity(direct.len() + tape.statements.len() + stores);
         let store = |instructions: &mut Vec<Instruction>, list: &[(u32, Operand)]| {
             instructions
                 .extend(list.iter().map(|(index, operand)| Instruction::Store(*index, place(*operand))));
         };
-        store(&mut instructions, &tape.direct);
+        store(&mut instructions, &direct);
         for statement in &tape.statements {
             let result = place(Operand::Value(statement.first));
             instructions.push(match statement.op {
@@ -142,7 +145,7 @@ impl Routine {
         }
         let workspace = first_register + registers.count as usize;
         let (inputs, outputs) = (tape.input_len(), tape.output_len());
-        Self { constants, inputs, outputs, instructions, workspace }
+        Self { constants, inputs, outputs, zeros, instructions, workspace }
     }
 
     /// Length of the output.
@@ -154,6 +157,11 @@ impl Routine {
     pub fn workspace(&self) -> usize {
         self.workspace
     }
+}
+
+/// Whether it is the number zero, of positive sign.
+fn is_zero(operand: &Operand) -> bool {
+    matches!(operand, Operand::Constant(number) if number.to_bits() == 0)
 }
 
 #[expect(clippy::unreachable, reason = "lowering turns sines and cosines into pairs")]
@@ -201,6 +209,9 @@ impl Routine {
         }
         let first = self.constants.len();
         w[first..first + self.inputs].copy_from_slice(&input[..self.inputs]);
+        for zeros in &self.zeros {
+            output[zeros.clone()].fill(T::constant(0.0));
+        }
         for instruction in &self.instructions {
             match *instruction {
                 Instruction::Add(a, b, r) => w[r as usize] = w[a as usize] + w[b as usize],

@@ -4,7 +4,9 @@
 //! Of a leg under a platform that is its universal joint: of the three rows of its ball one is left to the platform, along the leg
 //! if nothing else of it moves.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
+
+use crate::sparse_rows::SparseRows;
 
 use super::plan::{Plan, PlanBlock};
 
@@ -14,7 +16,7 @@ impl Plan {
     pub fn without_own(
         pattern: &[Vec<bool>],
         speeds: usize,
-        numbers: &[DMatrix<f64>],
+        numbers: &[SparseRows],
         cuts: &[usize],
     ) -> Option<Self> {
         let in_rows = |speed: &usize| pattern.iter().any(|row| row[*speed]);
@@ -40,13 +42,13 @@ impl Plan {
                 columns.iter().map(|speed| all.iter().any(|row| pattern[*row][*speed])).collect()
             })
             .collect();
-        let numbers: Vec<DMatrix<f64>> = numbers
+        let numbers: Vec<SparseRows> = numbers
             .iter()
             .map(|jacobian| {
                 let mut left = jacobian.clone();
                 for own in &own {
-                    let row = own.normal(jacobian).transpose() * jacobian.select_rows(&own.rows);
-                    left.set_row(own.left(), &row.row(0));
+                    let rows = jacobian.select_rows(&own.rows);
+                    left.set_row(own.left(), &rows.transposed_times(&own.normal(jacobian)));
                 }
                 left.select_rows(&rows).select_columns(&columns)
             })
@@ -64,8 +66,8 @@ impl Plan {
 
 impl PlanBlock {
     /// Direction among the rows, of which there is one more than speeds, in which none of the speeds moves them.
-    fn normal(&self, jacobian: &DMatrix<f64>) -> DVector<f64> {
-        let columns = jacobian.select_rows(&self.rows).select_columns(&self.speeds);
+    fn normal(&self, jacobian: &SparseRows) -> DVector<f64> {
+        let columns = jacobian.select_rows(&self.rows).select_columns(&self.speeds).dense();
         let normal = match self.speeds.len() {
             1 => DVector::from_vec(vec![-columns[1], columns[0]]),
             _ => {

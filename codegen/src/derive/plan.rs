@@ -5,9 +5,8 @@
 //! no entries by other speeds: its accelerations follow from the rows. Its strongly connected components are the diagonal
 //! blocks of a block triangular form, so that it is singular only where one of them is.
 
-use nalgebra::DMatrix;
-
-use crate::decompose::{is_finite, singular_values};
+use crate::decompose::singular_values;
+use crate::sparse_rows::SparseRows;
 
 /// What numbers say to the derivation.
 #[derive(Clone, Debug, Default)]
@@ -15,7 +14,7 @@ pub struct Guide {
     /// Whether each constraint row (cuts in topology order) is kept.
     pub keep: Vec<bool>,
     /// At closed positions: Jacobian of all rows by all speeds, rows and speeds in units that make them comparable.
-    pub jacobians: Vec<DMatrix<f64>>,
+    pub jacobians: Vec<SparseRows>,
     /// Whether the forward dynamics goes link by link wherever that is possible, shorter or not.
     pub link_by_link: bool,
     /// Whether the equations of motion have their mass matrix however large it is.
@@ -57,7 +56,7 @@ const PASSED: f64 = 0.1;
 impl Plan {
     /// For a Jacobian of kept rows by free speeds that is not zero where `pattern` says; `numbers` are its values at
     /// closed positions. With blocks that adjugates serve, and with larger ones as well, where there are such.
-    pub fn new(pattern: &[Vec<bool>], speeds: usize, numbers: &[DMatrix<f64>]) -> (Self, Option<Self>) {
+    pub fn new(pattern: &[Vec<bool>], speeds: usize, numbers: &[SparseRows]) -> (Self, Option<Self>) {
         let rows = pattern.len();
         let Some(speed_of) = matching(pattern, speeds) else {
             let rest = PlanBlock { rows: (0..rows).collect(), speeds: (0..speeds).collect() };
@@ -109,12 +108,13 @@ impl PlanBlock {
         self.rows[self.rows.len() - 1]
     }
 
-    pub(super) fn is_regular(&self, numbers: &[DMatrix<f64>]) -> bool {
+    pub(super) fn is_regular(&self, numbers: &[SparseRows]) -> bool {
         let singular = numbers.iter().filter(|jacobian| {
             let rows = jacobian.select_rows(&self.rows);
-            let values = singular_values(&rows.select_columns(&self.speeds));
+            let values = singular_values(&rows.select_columns(&self.speeds).dense());
+            let largest = (0..rows.nrows()).map(|row| rows.largest(row)).fold(0.0, f64::max);
             // Against all of its rows: an entry may be there symbolically and vanish wherever loops close.
-            values.is_none_or(|values| !is_finite(&rows) || values.min() <= SINGULAR * rows.amax())
+            values.is_none_or(|values| !rows.is_finite() || values.min() <= SINGULAR * largest)
         });
         // Without numbers nothing is known.
         !numbers.is_empty() && singular.count() as f64 <= PASSED * numbers.len() as f64
@@ -227,14 +227,16 @@ pub(super) mod tests {
     use super::*;
 
     /// A Jacobian of ones and zeros, and numbers that are regular wherever its pattern is.
-    pub fn numbered(rows: &[&str]) -> (Vec<Vec<bool>>, DMatrix<f64>) {
+    pub fn numbered(rows: &[&str]) -> (Vec<Vec<bool>>, SparseRows) {
         let pattern: Vec<Vec<bool>> =
             rows.iter().map(|row| row.chars().map(|entry| entry != '.').collect()).collect();
         let mut seed = 7_u64;
-        let numbers = DMatrix::from_fn(rows.len(), pattern[0].len(), |i, j| {
+        let number = |is_there: &bool| {
             seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            if pattern[i][j] { 1.0 + (seed >> 40) as f64 / 1e7 } else { 0.0 }
-        });
+            if *is_there { 1.0 + (seed >> 40) as f64 / 1e7 } else { 0.0 }
+        };
+        let numbers: Vec<f64> = pattern.iter().flatten().map(number).collect();
+        let numbers = SparseRows::from_entries(pattern[0].len(), &numbers);
         (pattern, numbers)
     }
 
@@ -268,7 +270,7 @@ pub(super) mod tests {
     #[test]
     fn blocks_that_are_singular_or_too_large_are_left_with_all_that_needs_them() {
         let pattern = vec![vec![true, false], vec![true, true]];
-        let singular = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 1.0, 1.0]);
+        let singular = SparseRows::from_entries(2, &[0.0, 0.0, 1.0, 1.0]);
         assert_eq!(Plan::new(&pattern, 2, &[singular]).0.blocks, []);
         assert_eq!(sizes(&plan(&["xxxx", "xxxx", "xxxx", "xxxx"])), [0; 0]);
         let [larger, small] =

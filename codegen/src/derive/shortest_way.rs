@@ -5,7 +5,7 @@
 
 use std::rc::Rc;
 
-use nalgebra::DMatrix;
+use crate::sparse_rows::SparseRows;
 
 use super::articulated::articulated;
 use super::dynamics::{Asked, shapes_of};
@@ -32,14 +32,14 @@ const MOST_TO_ELIMINATE: usize = 10_000;
 const CLEARLY: f64 = 0.95;
 
 /// By row and speed, whether the entry is among the largest of its row at all positions.
-fn large_entries(rows: usize, speeds: usize, jacobians: &[DMatrix<f64>]) -> Vec<Vec<bool>> {
+fn large_entries(rows: usize, speeds: usize, jacobians: &[SparseRows]) -> Vec<Vec<bool>> {
     let of_row = |row: usize| {
         let mut always = vec![true; speeds];
         for jacobian in jacobians {
-            let least = SMALLEST_PIVOT * jacobian.row(row).amax();
-            for (always, entry) in always.iter_mut().zip(jacobian.row(row).iter()) {
-                *always &= entry.abs() >= least;
-            }
+            let least = SMALLEST_PIVOT * jacobian.largest(row);
+            let mut large = vec![least == 0.0; speeds];
+            jacobian.row(row).iter().for_each(|(speed, entry)| large[*speed] = entry.abs() >= least);
+            always.iter_mut().zip(large).for_each(|(always, large)| *always &= large);
         }
         always
     };
@@ -193,7 +193,7 @@ fn cuts(rows: &[KeptRow<'_, '_>]) -> Vec<usize> {
 pub fn forward<'g>(
     problem: &Problem<'_, 'g>,
     others: impl Fn(&mut dyn FnMut(&Problem<'_, 'g>)),
-    (jacobians, link_by_link): (&[DMatrix<f64>], bool),
+    (jacobians, link_by_link): (&[SparseRows], bool),
 ) -> Shortest<'g> {
     let speeds = problem.partition.free.len();
     let pattern: Vec<Vec<bool>> = problem

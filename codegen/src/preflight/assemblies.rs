@@ -5,7 +5,8 @@
 use std::f64::consts::{PI, TAU};
 
 use linkwear_runtime::{Description, Evaluator, Motion, Sizes, System, assemble_with, close_loops};
-use nalgebra::DMatrix;
+
+use crate::sparse_rows::SparseRows;
 
 use super::samples::random;
 use super::subspace::rank;
@@ -91,7 +92,7 @@ impl<'a> Search<'a> {
         let mut held: Vec<bool> = coordinates.iter().map(|info| info.held).collect();
         let n = evaluator.sizes().speeds;
         let jacobian = evaluator.closure(0.0, &state.q, &state.v).jacobian;
-        let loops = DMatrix::from_row_slice(jacobian.len() / n.max(1), n, jacobian);
+        let loops = SparseRows::from_entries(n, jacobian);
         let mut rest = Vec::new();
         let mut hold = |speed: usize| {
             let before = rank(&with_rest(&loops, &rest));
@@ -163,7 +164,7 @@ impl<'a> Search<'a> {
     fn is_isolated(&mut self, q: &[f64]) -> bool {
         let n = self.evaluator.sizes().speeds;
         let jacobian = self.evaluator.closure(0.0, q, &vec![0.0; n]).jacobian;
-        let loops = DMatrix::from_row_slice(jacobian.len() / n.max(1), n, jacobian);
+        let loops = SparseRows::from_entries(n, jacobian);
         rank(&with_rest(&loops, &self.rest)) >= self.rank
     }
 
@@ -208,9 +209,6 @@ impl<'a> Search<'a> {
 }
 
 /// The rows of the loops, and below them one for every speed that rests.
-fn with_rest(loops: &DMatrix<f64>, rest: &[usize]) -> DMatrix<f64> {
-    let m = loops.nrows();
-    DMatrix::from_fn(m + rest.len(), loops.ncols(), |i, j| {
-        if i < m { loops[(i, j)] } else { f64::from(u8::from(rest[i - m] == j)) }
-    })
+fn with_rest(loops: &SparseRows, rest: &[usize]) -> SparseRows {
+    loops.stack(&SparseRows::units(loops.ncols(), rest))
 }

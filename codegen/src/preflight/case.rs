@@ -9,7 +9,7 @@ use crate::model::{Carrier, Mechanism, Start, Topology};
 use crate::source::SourceFile;
 
 use super::own_units::OwnUnits;
-use super::samples::{ClosedPositions, Walker, evaluate};
+use super::samples::{ClosedPositions, RowsAt, Walker, evaluate};
 
 /// What an analysis looks at: a mechanism and its derivation with all rows kept and all drivers
 /// [`released`], run by the interpreter.
@@ -27,7 +27,7 @@ pub struct Case<'a> {
     /// The released mechanism.
     pub system: &'a dyn System<f64>,
     /// Of its equations of motion the position residuals and the Jacobian of all rows.
-    pub rows: &'a dyn Fn(&[f64]) -> Vec<f64>,
+    pub rows: &'a RowsAt<'a>,
     /// What its lengths are measured in.
     pub units: OwnUnits,
 }

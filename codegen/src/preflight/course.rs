@@ -5,10 +5,11 @@
 use std::f64::consts::{PI, TAU};
 
 use linkwear_runtime::CLOSED_AT_START;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use crate::id::JointId;
 use crate::model::{Coordinate, Formula};
+use crate::sparse_rows::SparseRows;
 
 use super::case::Case;
 use super::resonance::turns_per_second;
@@ -218,17 +219,18 @@ impl<'a> Course<'a> {
     }
 
     /// The Jacobian of the loops by the speeds that no driver has, in own units.
-    pub fn loops(&self, waypoint: &Waypoint) -> DMatrix<f64> {
+    pub fn loops(&self, waypoint: &Waypoint) -> SparseRows {
         self.walker.equations(&waypoint.q).1.select_columns(&self.free)
     }
 
     /// All speeds when the drivers have these, SI.
-    fn following(&self, jacobian: &DMatrix<f64>, driven: &[f64]) -> Option<Vec<f64>> {
+    fn following(&self, jacobian: &SparseRows, driven: &[f64]) -> Option<Vec<f64>> {
         let units = &self.walker.units.speeds;
-        let mut opened = DVector::zeros(jacobian.nrows());
+        let mut moved = DVector::zeros(jacobian.ncols());
         for (driver, amount) in self.drivers.iter().zip(driven) {
-            opened += jacobian.column(driver.speed) * (amount / units[driver.speed]);
+            moved[driver.speed] += amount / units[driver.speed];
         }
+        let opened = jacobian.times(&moved);
         let mut all = self.closing(jacobian, &opened)?;
         for (driver, amount) in self.drivers.iter().zip(driven) {
             all[driver.speed] = *amount;
@@ -237,7 +239,7 @@ impl<'a> Course<'a> {
     }
 
     /// The shortest motion of the free speeds that takes a residual away.
-    fn closing(&self, jacobian: &DMatrix<f64>, residual: &DVector<f64>) -> Option<Vec<f64>> {
+    fn closing(&self, jacobian: &SparseRows, residual: &DVector<f64>) -> Option<Vec<f64>> {
         let step = least_norm(&jacobian.select_columns(&self.free), residual)?;
         let units = &self.walker.units.speeds;
         let mut all = vec![0.0; units.len()];
@@ -247,7 +249,7 @@ impl<'a> Course<'a> {
         Some(all)
     }
 
-    fn correct(&self, q: &mut [f64], jacobian: &DMatrix<f64>, residual: &DVector<f64>) -> Option<()> {
+    fn correct(&self, q: &mut [f64], jacobian: &SparseRows, residual: &DVector<f64>) -> Option<()> {
         self.walker.layout.advance(q, &self.closing(jacobian, residual)?);
         Some(())
     }

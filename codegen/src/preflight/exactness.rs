@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use linkwear_runtime::CLOSED_AT_START;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::case::Case;
 use super::samples::{ClosedPositions, Ended, Position, STEP, Walker};
@@ -95,18 +95,16 @@ fn with_kept_rows_closed(walker: &Walker<'_>, position: &Position, keep: &[bool]
     let jacobian = position.jacobian.select_columns(&walker.joint_speeds);
     let kept: Vec<usize> = (0..keep.len()).filter(|row| keep[*row]).collect();
     let rows = jacobian.select_rows(&kept);
-    if rows.is_empty() {
+    if rows.nrows() == 0 || rows.ncols() == 0 {
         return Some(residual.clone());
     }
     // A row that only modes move has no length of its own.
-    let lengths: Vec<f64> = rows
-        .row_iter()
-        .map(|row| Some(row.norm()).filter(|length| *length > WEAKEST).unwrap_or(1.0))
-        .collect();
-    let scaled = DMatrix::from_fn(rows.nrows(), rows.ncols(), |i, j| rows[(i, j)] / lengths[i]);
+    let length = |row: usize| Some(rows.length(row)).filter(|length| *length > WEAKEST).unwrap_or(1.0);
+    let lengths: Vec<f64> = (0..rows.nrows()).map(length).collect();
+    let scaled = rows.scaled(|row, _| 1.0 / lengths[row]);
     let right = DVector::from_fn(kept.len(), |i, _| -residual[kept[i]] / lengths[i]);
     let step = least_norm(&scaled, &right)?;
-    let opened = residual + jacobian * step;
+    let opened = residual + jacobian.times(&step);
     if residual.amax() + (&opened - residual).amax() * (WEAK / WEAKEST) < NOTHING {
         return Some(opened);
     }

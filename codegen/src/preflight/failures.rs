@@ -340,13 +340,14 @@ pub fn conflicts(
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{DMatrix, DVector};
+    use nalgebra::DVector;
 
     use super::super::samples::{ClosedPositions, Position};
     use super::*;
     use crate::input::Reach;
     use crate::model::{Overrides, resolve};
     use crate::source::SourceFile;
+    use crate::sparse_rows::SparseRows;
     use crate::spec;
 
     #[test]
@@ -359,7 +360,7 @@ mod tests {
             resolve(&spec::parse(&source).unwrap(), &Overrides::default(), Reach::Below).unwrap();
         let drivers = [(mechanism.drives().next().unwrap().0, 0)];
         // One row that holds the driven speed.
-        let held = Position::new(Vec::new(), DVector::zeros(1), DMatrix::identity(1, 1));
+        let held = Position::new(Vec::new(), DVector::zeros(1), SparseRows::units(1, &[0]));
         let positions = ClosedPositions { positions: vec![held], arm: 1.0, open: Vec::new() };
         let helps = |part: f64| {
             let errors = conflicts(&mechanism, &drivers, &Rows::new(&positions, vec![0]), &|_| part);

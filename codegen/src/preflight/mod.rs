@@ -15,7 +15,6 @@ mod friction;
 mod idle;
 mod immobile;
 mod own_units;
-mod pivoted_qr;
 mod plausible;
 mod prescribed;
 mod rank;

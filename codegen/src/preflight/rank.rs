@@ -3,7 +3,9 @@
 
 use std::cell::OnceCell;
 
-use nalgebra::DMatrix;
+use linkwear_runtime::linear::{Entries, add_products, subtract};
+
+use crate::sparse_rows::SparseRows;
 
 use super::samples::ClosedPositions;
 use super::subspace::{RANK_TOLERANCE, Strength, rank, singular_values, strength};
@@ -15,34 +17,41 @@ const SINGULAR: f64 = 1e-4;
 
 /// What is left of the rows of a position without the directions of those that are kept.
 struct Rests {
-    rows: Vec<Vec<f64>>,
+    rows: Vec<Entries>,
     lengths: Vec<f64>,
+    /// By speed, the rows that have or had an entry there.
+    at_speed: Vec<Vec<usize>>,
+    work: Entries,
 }
 
 impl Rests {
-    fn new(rows: &DMatrix<f64>) -> Self {
-        let rows: Vec<Vec<f64>> = rows.row_iter().map(|row| row.iter().copied().collect()).collect();
+    fn new(all: &SparseRows, chosen: &[usize]) -> Self {
+        let rows: Vec<Entries> = chosen.iter().map(|row| all.row(*row).to_vec()).collect();
+        let mut at_speed = vec![Vec::new(); all.ncols()];
+        for (at, row) in rows.iter().enumerate() {
+            row.iter().for_each(|(speed, _)| at_speed[*speed].push(at));
+        }
         let lengths = rows.iter().map(|row| size(row)).collect();
-        Self { rows, lengths }
+        Self { rows, lengths, at_speed, work: Vec::new() }
     }
 
     /// Takes the direction of a row out of all. Few rows have a speed in common with it. Out: those that it changed.
     fn take_out(&mut self, kept: usize) -> Vec<usize> {
-        let length = self.lengths[kept];
-        let entries = self.rows[kept].iter().enumerate().filter(|(_, entry)| **entry != 0.0);
-        let direction: Vec<(usize, f64)> = entries.map(|(at, entry)| (at, entry / length)).collect();
+        let length = std::mem::take(&mut self.lengths[kept]);
         // Rounding is all that would be left of it.
-        self.rows[kept].fill(0.0);
-        self.lengths[kept] = 0.0;
+        let mut direction = std::mem::take(&mut self.rows[kept]);
+        direction.iter_mut().for_each(|(_, entry)| *entry /= length);
+        let mut near: Vec<usize> =
+            direction.iter().flat_map(|(speed, _)| &self.at_speed[*speed]).copied().collect();
+        near.sort_unstable();
+        near.dedup();
         let mut changed = vec![kept];
-        for (at, (row, length)) in self.rows.iter_mut().zip(&mut self.lengths).enumerate() {
-            if *length == 0.0 {
-                continue;
-            }
-            let along: f64 = direction.iter().map(|(at, part)| row[*at] * part).sum();
+        for at in near {
+            let row = &mut self.rows[at];
+            let along = add_products(0.0, &direction, row);
             if along != 0.0 {
-                direction.iter().for_each(|(at, part)| row[*at] -= along * part);
-                *length = size(row);
+                subtract(row, (along, &direction), &mut self.work, |speed| self.at_speed[speed].push(at));
+                self.lengths[at] = size(row);
                 changed.push(at);
             }
         }
@@ -50,13 +59,13 @@ impl Rests {
     }
 }
 
-fn size(row: &[f64]) -> f64 {
-    row.iter().map(|entry| entry * entry).sum::<f64>().sqrt()
+fn size(row: &[(usize, f64)]) -> f64 {
+    row.iter().map(|(_, entry)| entry * entry).sum::<f64>().sqrt()
 }
 
 /// Normalised rows at every position tried.
 pub struct Rows {
-    samples: Vec<DMatrix<f64>>,
+    samples: Vec<SparseRows>,
     driven: Vec<usize>,
     strengths: OnceCell<Vec<Strength>>,
 }
@@ -65,19 +74,14 @@ impl Rows {
     /// Scales every row to its largest length over all positions, so that rad and m compare.
     pub fn new(positions: &ClosedPositions, driven: Vec<usize>) -> Self {
         let m = positions.positions.first().map_or(0, |position| position.jacobian.nrows());
-        let mut samples: Vec<DMatrix<f64>> =
-            positions.positions.iter().map(|position| position.jacobian.clone()).collect();
-        let lengths: Vec<f64> = (0..m)
-            .map(|row| samples.iter().map(|sample| sample.row(row).norm()).fold(0.0, f64::max))
-            .collect();
+        let jacobians = || positions.positions.iter().map(|position| &position.jacobian);
+        let length = |row: usize| jacobians().map(|jacobian| jacobian.length(row)).fold(0.0, f64::max);
+        let lengths: Vec<f64> = (0..m).map(length).collect();
         let longest = lengths.iter().copied().fold(0.0, f64::max);
-        for (row, length) in lengths.into_iter().enumerate() {
-            // A row of rounding errors says nothing; scaled up it would look like any other.
-            let scale = if length > RANK_TOLERANCE * longest { 1.0 / length } else { 0.0 };
-            for sample in &mut samples {
-                sample.row_mut(row).scale_mut(scale);
-            }
-        }
+        // A row of rounding errors says nothing; scaled up it would look like any other.
+        let scale = |length: &f64| if *length > RANK_TOLERANCE * longest { 1.0 / length } else { 0.0 };
+        let scales: Vec<f64> = lengths.iter().map(scale).collect();
+        let samples = jacobians().map(|jacobian| jacobian.clone().scaled(|row, _| scales[row])).collect();
         Self { samples, driven, strengths: OnceCell::new() }
     }
 
@@ -102,13 +106,12 @@ impl Rows {
     /// Greedy choice: the row that adds most to those kept, judged where it adds least among the positions of
     /// full rank; so the kept rows stay independent along the motion.
     pub fn independent(&self) -> Vec<bool> {
-        let m = self.samples.first().map_or(0, DMatrix::nrows);
+        let m = self.samples.first().map_or(0, SparseRows::nrows);
         let generic = self.generic_samples();
         // Rows of zeros, which planar mechanisms have many of, are never kept.
         let rows: Vec<usize> =
-            (0..m).filter(|row| generic.iter().any(|at| self.samples[*at].row(*row).amax() > 0.0)).collect();
-        let mut rests: Vec<Rests> =
-            generic.iter().map(|at| Rests::new(&self.samples[*at].select_rows(&rows))).collect();
+            (0..m).filter(|row| generic.iter().any(|at| !self.samples[*at].row(*row).is_empty())).collect();
+        let mut rests: Vec<Rests> = generic.iter().map(|at| Rests::new(&self.samples[*at], &rows)).collect();
         let mut keep = vec![false; m];
         let gain = |rests: &[Rests], at: usize| {
             rests.iter().map(|rest| rest.lengths[at]).fold(f64::INFINITY, f64::min)
@@ -142,8 +145,7 @@ impl Rows {
             return Some(Lost::Rows);
         }
         let alone = |speed: usize| {
-            let with: Vec<_> =
-                self.samples.iter().map(|sample| stack(sample, &units(sample.ncols(), &[speed]))).collect();
+            let with: Vec<_> = self.samples.iter().map(|sample| with_speeds(sample, &[speed])).collect();
             singular_start(&with, &with.iter().map(strength).collect::<Vec<_>>())
         };
         let lost: Vec<usize> = (0..held.len()).filter(|at| alone(held[*at])).collect();
@@ -157,25 +159,22 @@ impl Rows {
             return Vec::new();
         }
         // A driver at its dead point is coupled with nothing elsewhere.
-        let with_drivers =
-            |at: &usize| rank(&stack(&self.samples[*at], &units(self.samples[*at].ncols(), &self.driven)));
+        let with_drivers = |at: &usize| rank(&with_speeds(&self.samples[*at], &self.driven));
         let best = self.generic_samples().into_iter().rev().max_by_key(with_drivers);
         let Some(at) = best else { return Vec::new() };
-        let n = self.samples[at].ncols();
         let mut rows = self.samples[at].clone();
         let mut taken: Vec<usize> = Vec::new();
         let mut conflicts = Vec::new();
         for (driver, speed) in self.driven.iter().enumerate() {
             let before = rank(&rows);
-            let mut with = rows.clone().insert_row(rows.nrows(), 0.0);
-            with[(rows.nrows(), *speed)] = 1.0;
+            let with = with_speeds(&rows, &[*speed]);
             if rank(&with) > before {
                 rows = with;
                 taken.push(driver);
                 continue;
             }
             let mut group: Vec<usize> =
-                taken.iter().copied().filter(|other| self.coupled(at, n, &taken, *other, *speed)).collect();
+                taken.iter().copied().filter(|other| self.coupled(at, &taken, *other, *speed)).collect();
             group.push(driver);
             conflicts.push(group);
         }
@@ -183,11 +182,11 @@ impl Rows {
     }
 
     /// Whether releasing driver `other` frees the speed again.
-    fn coupled(&self, at: usize, n: usize, taken: &[usize], other: usize, speed: usize) -> bool {
+    fn coupled(&self, at: usize, taken: &[usize], other: usize, speed: usize) -> bool {
         let held: Vec<usize> =
             taken.iter().copied().filter(|d| *d != other).map(|d| self.driven[d]).collect();
-        let rows = stack(&self.samples[at], &units(n, &held));
-        rank(&stack(&rows, &units(n, &[speed]))) > rank(&rows)
+        let rows = with_speeds(&self.samples[at], &held);
+        rank(&with_speeds(&rows, &[speed])) > rank(&rows)
     }
 }
 
@@ -202,7 +201,7 @@ pub enum Lost {
 
 /// Whether the first of the matrices has a lower rank than others. Their weakest direction is compared, because
 /// what is weak everywhere is no singular position.
-fn singular_start(samples: &[DMatrix<f64>], strengths: &[Strength]) -> bool {
+fn singular_start(samples: &[SparseRows], strengths: &[Strength]) -> bool {
     let rank = strengths.iter().map(|strength| strength.rank).max().unwrap_or(0);
     if rank == 0 {
         return false;
@@ -210,7 +209,7 @@ fn singular_start(samples: &[DMatrix<f64>], strengths: &[Strength]) -> bool {
     if clearly_regular(strengths, rank) {
         return false;
     }
-    let weakest = |matrix: &DMatrix<f64>| singular_values(matrix)[rank - 1];
+    let weakest = |matrix: &SparseRows| singular_values(matrix)[rank - 1];
     let best = samples.iter().map(weakest).fold(0.0, f64::max);
     weakest(&samples[0]) < SINGULAR * best
 }
@@ -224,15 +223,9 @@ fn clearly_regular(strengths: &[Strength], rank: usize) -> bool {
     first.rank == rank && first.weakest.is_some_and(|(least, _)| least > SINGULAR * best)
 }
 
-/// A row for each of the speeds, that this one moves.
-fn units(columns: usize, speeds: &[usize]) -> DMatrix<f64> {
-    DMatrix::from_fn(speeds.len(), columns, |i, j| f64::from(u8::from(j == speeds[i])))
-}
-
-fn stack(a: &DMatrix<f64>, b: &DMatrix<f64>) -> DMatrix<f64> {
-    DMatrix::from_fn(a.nrows() + b.nrows(), a.ncols(), |i, j| {
-        if i < a.nrows() { a[(i, j)] } else { b[(i - a.nrows(), j)] }
-    })
+/// With a row for each of the speeds, that this one moves.
+fn with_speeds(rows: &SparseRows, speeds: &[usize]) -> SparseRows {
+    rows.stack(&SparseRows::units(rows.ncols(), speeds))
 }
 
 #[cfg(test)]
@@ -244,7 +237,7 @@ mod tests {
 
     #[test]
     fn a_row_of_rounding_errors_is_dropped() {
-        let sample = |noise: f64| DMatrix::from_row_slice(2, 2, &[1.0, 2.0, noise, 3.0 * noise]);
+        let sample = |noise: f64| SparseRows::from_entries(2, &[1.0, 2.0, noise, 3.0 * noise]);
         let positions =
             [1e-16, -2e-16].map(|noise| Position::new(Vec::new(), DVector::zeros(2), sample(noise)));
         let rows = Rows::new(
@@ -257,7 +250,7 @@ mod tests {
 
     #[test]
     fn a_row_that_repeats_another_is_dropped_and_the_first_kept() {
-        let sample = DMatrix::from_row_slice(3, 3, &[1.0, 2.0, 0.0, 2.0, 4.0, 0.0, 0.0, 0.0, 1.0]);
+        let sample = SparseRows::from_entries(3, &[1.0, 2.0, 0.0, 2.0, 4.0, 0.0, 0.0, 0.0, 1.0]);
         let rows = Rows { samples: vec![sample], driven: vec![2], strengths: OnceCell::new() };
         assert_eq!(rows.independent().iter().filter(|kept| **kept).count(), 2);
         // The third speed is held by the third row: driving it is a conflict of one.

@@ -1,9 +1,11 @@
 //! Reactions that redundant constraints leave undetermined: self-stress of the loops.
 //! In: the left null space of the constraint Jacobian. Out: names of wrench components.
 
-use super::case::Case;
 use nalgebra::{DMatrix, DVector};
 
+use crate::sparse_rows::SparseRows;
+
+use super::case::Case;
 use super::samples::{ClosedPositions, random};
 use super::subspace::null_space;
 
@@ -57,8 +59,8 @@ struct SelfStresses {
 }
 
 impl SelfStresses {
-    fn new(jacobian: &DMatrix<f64>) -> Self {
-        let says = |row: &usize| jacobian.row(*row).iter().any(|value| *value != 0.0);
+    fn new(jacobian: &SparseRows) -> Self {
+        let says = |row: &usize| !jacobian.row(*row).is_empty();
         let (rows, idle): (Vec<usize>, Vec<usize>) = (0..jacobian.nrows()).partition(says);
         let among = null_space(&jacobian.select_rows(&rows).transpose());
         Self { idle, rows, among }

@@ -8,6 +8,8 @@ use linkwear_runtime::{
 };
 use nalgebra::{DMatrix, DVector};
 
+use crate::sparse_rows::SparseRows;
+
 use super::own_units::OwnUnits;
 use super::subspace::{RANK_TOLERANCE, least_norm, least_norm_within, null_space};
 
@@ -36,13 +38,13 @@ pub struct Position {
     /// Residuals of all rows, in own units.
     pub residual: DVector<f64>,
     /// Jacobian of all rows by all speeds, in own units.
-    pub jacobian: DMatrix<f64>,
+    pub jacobian: SparseRows,
     freedoms: OnceCell<DMatrix<f64>>,
 }
 
 impl Position {
     /// A position with what was evaluated there.
-    pub fn new(q: Vec<f64>, residual: DVector<f64>, jacobian: DMatrix<f64>) -> Self {
+    pub fn new(q: Vec<f64>, residual: DVector<f64>, jacobian: SparseRows) -> Self {
         Self { q, residual, jacobian, freedoms: OnceCell::new() }
     }
 
@@ -110,12 +112,15 @@ pub fn evaluate(system: &dyn System<f64>, entry: Entry, input: &[f64], output: &
     system.evaluate(entry, &all, output, &mut workspace);
 }
 
+/// Position residuals of all rows and their Jacobian, at a question of the equations of motion.
+pub type RowsAt<'a> = dyn Fn(&[f64]) -> (Vec<f64>, SparseRows) + 'a;
+
 /// A mechanism without drivers, moved by its joint speeds.
 pub struct Walker<'a> {
     /// The mechanism.
     pub system: &'a dyn System<f64>,
     /// Its rows, at the question of its equations of motion.
-    pub rows: &'a dyn Fn(&[f64]) -> Vec<f64>,
+    pub rows: &'a RowsAt<'a>,
     /// Values of the tunable parameters.
     pub parameters: Vec<f64>,
     /// Places of coordinates and speeds.
@@ -128,18 +133,12 @@ pub struct Walker<'a> {
 
 impl Walker<'_> {
     /// Residuals of all rows and their Jacobian, in own units.
-    pub fn equations(&self, q: &[f64]) -> (DVector<f64>, DMatrix<f64>) {
-        let sizes = self.system.sizes();
-        let (n, m) = (sizes.all_speeds, sizes.all_rows);
-        let output = (self.rows)(&self.at_rest(q));
+    pub fn equations(&self, q: &[f64]) -> (DVector<f64>, SparseRows) {
+        let (residuals, jacobian) = (self.rows)(&self.at_rest(q));
         let OwnUnits { speeds, rows, .. } = self.units;
-        let phi = DVector::from_fn(m, |i, _| output[i] / rows[i]);
-        // Most entries are zero in any unit.
-        let in_units = |entry: f64, i: usize, j: usize| {
-            if entry == 0.0 { entry } else { entry * (speeds[j] / rows[i]) }
-        };
-        let jacobian = DMatrix::from_fn(m, n, |i, j| in_units(output[m + i * n + j], i, j));
-        (phi, jacobian)
+        let residuals = residuals.iter().zip(rows).map(|(residual, unit)| residual / unit);
+        let residuals = DVector::from_iterator(rows.len(), residuals);
+        (residuals, jacobian.scaled(|row, speed| speeds[speed] / rows[row]))
     }
 
     /// Mass matrix of all speeds, in own units but for a common factor.

@@ -4,10 +4,11 @@
 //! rank, and the singular values answer elsewhere. A matrix with numbers that are infinite or none has no rank, no
 //! directions and no solution here.
 
+use linkwear_runtime::linear::SparseQr;
 use nalgebra::{DMatrix, DVector};
 
-use super::pivoted_qr::PivotedQr;
-use crate::decompose::{self, is_finite};
+use crate::decompose;
+use crate::sparse_rows::SparseRows;
 
 /// Singular values below this share of the largest are zero. Rounding leaves 1e-14; a mechanism that is not
 /// meant to be special has none below 1e-4.
@@ -43,7 +44,7 @@ pub struct Strength {
 }
 
 /// How strongly the rows of a matrix hold.
-pub fn strength(matrix: &DMatrix<f64>) -> Strength {
+pub fn strength(matrix: &SparseRows) -> Strength {
     if let Some(factor) = Factor::new(matrix, RANK_TOLERANCE) {
         let weakest = (factor.rank > 0).then(|| {
             let pivot = factor.weakest_pivot();
@@ -58,29 +59,28 @@ pub fn strength(matrix: &DMatrix<f64>) -> Strength {
 }
 
 /// Rank of a matrix.
-pub fn rank(matrix: &DMatrix<f64>) -> usize {
+pub fn rank(matrix: &SparseRows) -> usize {
     strength(matrix).rank
 }
 
 /// The largest first, as many as the shorter side is long.
-pub fn singular_values(matrix: &DMatrix<f64>) -> Vec<f64> {
-    let (rows, columns) = matrix.shape();
+pub fn singular_values(matrix: &SparseRows) -> Vec<f64> {
     let found = decompose::singular_values(&without_zero_rows(matrix));
     let mut values: Vec<f64> = found.iter().flatten().copied().collect();
-    values.resize(rows.min(columns), 0.0);
+    values.resize(matrix.nrows().min(matrix.ncols()), 0.0);
     values.sort_by(|a, b| b.total_cmp(a));
     values
 }
 
 /// Columns span the null space.
-pub fn null_space(matrix: &DMatrix<f64>) -> DMatrix<f64> {
+pub fn null_space(matrix: &SparseRows) -> DMatrix<f64> {
     nearly_null_space(matrix, RANK_TOLERANCE)
 }
 
 /// The same of what is below a part of the largest singular value.
-pub fn nearly_null_space(matrix: &DMatrix<f64>, tolerance: f64) -> DMatrix<f64> {
+pub fn nearly_null_space(matrix: &SparseRows, tolerance: f64) -> DMatrix<f64> {
     let n = matrix.ncols();
-    if n == 0 || !is_finite(matrix) {
+    if n == 0 || !matrix.is_finite() {
         return DMatrix::zeros(n, 0);
     }
     let there = if n > MANY_COLUMNS { CLEARLY_THERE.min(FAR_ABOVE * tolerance) } else { CLEARLY_THERE };
@@ -104,75 +104,54 @@ pub fn right_singular_vectors(matrix: DMatrix<f64>) -> (DVector<f64>, DMatrix<f6
 }
 
 /// Shortest solution of a rank-deficient system.
-pub fn least_norm(matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+pub fn least_norm(matrix: &SparseRows, right: &DVector<f64>) -> Option<DVector<f64>> {
     least_norm_within(matrix, right, RANK_TOLERANCE)
 }
 
 /// The same by the directions above a part of the strongest one.
-pub fn least_norm_within(
-    matrix: &DMatrix<f64>,
-    right: &DVector<f64>,
-    tolerance: f64,
-) -> Option<DVector<f64>> {
-    if matrix.is_empty() {
+pub fn least_norm_within(matrix: &SparseRows, right: &DVector<f64>, tolerance: f64) -> Option<DVector<f64>> {
+    if matrix.nrows() == 0 || matrix.ncols() == 0 {
         return Some(DVector::zeros(matrix.ncols()));
     }
-    if !is_finite(matrix) || right.iter().any(|value| !value.is_finite()) {
+    if !matrix.is_finite() || right.iter().any(|value| !value.is_finite()) {
         return None;
     }
     let factor = Factor::new(matrix, tolerance);
     if let Some(solution) = factor.and_then(|factor| factor.least_norm(matrix, right)) {
         return Some(solution);
     }
-    let svd = decompose::singular_directions(matrix.clone(), true)?;
+    let svd = decompose::singular_directions(matrix.dense(), true)?;
     let largest = svd.singular_values.amax();
     svd.solve(right, tolerance * largest).ok()
 }
 
 /// Rows of zeros, which planar mechanisms have many of, say nothing.
-fn without_zero_rows(matrix: &DMatrix<f64>) -> DMatrix<f64> {
-    matrix.select_rows(&rows_that_say_something(matrix))
+fn without_zero_rows(matrix: &SparseRows) -> DMatrix<f64> {
+    matrix.select_rows(&matrix.rows_that_say_something()).dense()
 }
-
-fn rows_that_say_something(matrix: &DMatrix<f64>) -> Vec<usize> {
-    let mut says = vec![false; matrix.nrows()];
-    // Column by column, as the numbers lie.
-    for column in columns(matrix) {
-        says.iter_mut().zip(column).for_each(|(says, value)| *says |= *value != 0.0);
-    }
-    (0..says.len()).filter(|row| says[*row]).collect()
-}
-
-fn columns(matrix: &DMatrix<f64>) -> impl Iterator<Item = &[f64]> {
-    matrix.as_slice().chunks_exact(matrix.nrows().max(1))
-}
-
 /// QR decomposition of the transpose with pivots, where they tell the rank.
 struct Factor {
     /// The rows that are not zero.
     rows: Vec<usize>,
-    decomposition: PivotedQr,
+    decomposition: SparseQr,
     rank: usize,
 }
 
 impl Factor {
     /// `None` where the pivots leave doubt.
-    fn new(matrix: &DMatrix<f64>, tolerance: f64) -> Option<Self> {
+    fn new(matrix: &SparseRows, tolerance: f64) -> Option<Self> {
         Self::clear(matrix, tolerance, CLEARLY_THERE)
     }
 
     /// The same with pivots that belong to the rank above another share of the largest.
-    fn clear(matrix: &DMatrix<f64>, tolerance: f64, there: f64) -> Option<Self> {
-        let rows = rows_that_say_something(matrix);
+    fn clear(matrix: &SparseRows, tolerance: f64, there: f64) -> Option<Self> {
+        let rows = matrix.rows_that_say_something();
         let width = matrix.ncols();
         if rows.is_empty() || width == 0 || !TOLERANCES.contains(&tolerance) {
             return None;
         }
-        let mut given = vec![vec![0.0; width]; rows.len()];
-        for (at, column) in columns(matrix).enumerate() {
-            given.iter_mut().zip(&rows).for_each(|(given, row)| given[at] = column[*row]);
-        }
-        let decomposition = PivotedQr::new(width, given);
+        let given = rows.iter().map(|row| matrix.row(*row).to_vec()).collect();
+        let decomposition = SparseQr::new(width, given);
         let pivots = decomposition.pivots();
         let largest = pivots.iter().map(|pivot| pivot.abs()).fold(0.0, f64::max);
         let rank = pivots.iter().take_while(|pivot| pivot.abs() > there * largest).count();
@@ -189,12 +168,14 @@ impl Factor {
     }
 
     fn null_space(&self) -> DMatrix<f64> {
-        self.decomposition.beyond(self.rank)
+        let directions = self.decomposition.beyond(self.rank);
+        let (height, count) = (self.decomposition.height(), directions.len());
+        DMatrix::from_iterator(height, count, directions.into_iter().flatten())
     }
 
     /// Of independent rows; others ask for a compromise. `matrix' multipliers` with `R' R multipliers = right`, which needs no
     /// directions; it loses the digits of the condition twice, and the condition is small here.
-    fn least_norm(&self, matrix: &DMatrix<f64>, right: &DVector<f64>) -> Option<DVector<f64>> {
+    fn least_norm(&self, matrix: &SparseRows, right: &DVector<f64>) -> Option<DVector<f64>> {
         if self.rank < self.rows.len() {
             return None;
         }
@@ -203,7 +184,7 @@ impl Factor {
         for (row, multiplier) in self.rows.iter().zip(self.decomposition.solve_normal(&wanted)) {
             multipliers[*row] = multiplier;
         }
-        Some(matrix.tr_mul(&multipliers))
+        Some(matrix.transposed_times(&multipliers))
     }
 }
 
@@ -216,6 +197,10 @@ mod tests {
         DMatrix::from_fn(rows, columns, |_, _| random(generator))
     }
 
+    fn sparse(matrix: &DMatrix<f64>) -> SparseRows {
+        SparseRows::from_entries(matrix.ncols(), matrix.transpose().as_slice())
+    }
+
     /// Products of two matrices have the rank of the narrower.
     #[test]
     fn ranks_null_spaces_and_shortest_solutions_are_those_of_the_singular_values() {
@@ -223,8 +208,9 @@ mod tests {
         for (rows, columns, rank) in [(4, 7, 4), (7, 4, 4), (6, 6, 3), (9, 5, 2), (3, 8, 1), (20, 21, 20)] {
             let mut given = matrix(rows, rank, &mut generator) * matrix(rank, columns, &mut generator);
             given = given.insert_row(1, 0.0);
-            assert_eq!(super::rank(&given), rank);
-            let free = null_space(&given);
+            let sparse = sparse(&given);
+            assert_eq!(super::rank(&sparse), rank);
+            let free = null_space(&sparse);
             assert_eq!(free.ncols(), columns - rank);
             assert!(
                 (&given * &free).amax() < 1e-12
@@ -232,7 +218,7 @@ mod tests {
                         < 1e-12
             );
             let right = &given * matrix(columns, 1, &mut generator).column(0);
-            let solution = least_norm(&given, &right).unwrap();
+            let solution = least_norm(&sparse, &right).unwrap();
             let svd = given.clone().svd(true, true);
             let expected = svd.solve(&right, 1e-10).unwrap();
             // The condition of these is below a thousand.
@@ -242,7 +228,7 @@ mod tests {
 
     #[test]
     fn a_row_of_zeros_with_something_to_ask_for_changes_no_solution() {
-        let given = DMatrix::from_row_slice(2, 2, &[0.0, 0.0, 3.0, 4.0]);
+        let given = SparseRows::from_entries(2, &[0.0, 0.0, 3.0, 4.0]);
         let solution = least_norm(&given, &DVector::from_vec(vec![1.0, 5.0])).unwrap();
         assert!((solution - DVector::from_vec(vec![0.6, 0.8])).amax() < 1e-15);
     }
@@ -250,20 +236,21 @@ mod tests {
     #[test]
     fn numbers_that_are_none_have_no_rank_and_no_solution() {
         for odd in [f64::NAN, f64::INFINITY] {
-            let given = DMatrix::from_row_slice(2, 3, &[1.0, 2.0, 0.0, odd, 1.0, 3.0]);
+            let given = SparseRows::from_entries(3, &[1.0, 2.0, 0.0, odd, 1.0, 3.0]);
             assert_eq!((rank(&given), singular_values(&given)), (0, vec![0.0; 2]));
             assert_eq!(null_space(&given).shape(), (3, 0));
             assert_eq!(least_norm(&given, &DVector::zeros(2)), None);
-            assert!(right_singular_vectors(given).0.iter().all(|value| value.is_nan()));
+            assert!(right_singular_vectors(given.dense()).0.iter().all(|value| value.is_nan()));
         }
-        assert_eq!(least_norm(&DMatrix::identity(2, 2), &DVector::from_vec(vec![f64::NAN, 0.0])), None);
+        assert_eq!(least_norm(&SparseRows::units(2, &[0, 1]), &DVector::from_vec(vec![f64::NAN, 0.0])), None);
     }
 
     #[test]
     fn doubtful_ranks_go_by_the_singular_values() {
-        let given = DMatrix::from_row_slice(2, 2, &[1.0, 0.0, 0.0, 1e-7]);
+        let given = SparseRows::from_entries(2, &[1.0, 0.0, 0.0, 1e-7]);
         assert_eq!(rank(&given), 2);
         assert_eq!(nearly_null_space(&given, 1e-3).ncols(), 1);
-        assert_eq!((rank(&DMatrix::zeros(2, 3)), null_space(&DMatrix::zeros(2, 3)).ncols()), (0, 3));
+        let zeros = SparseRows::from_entries(3, &[0.0; 6]);
+        assert_eq!((rank(&zeros), null_space(&zeros).ncols()), (0, 3));
     }
 }

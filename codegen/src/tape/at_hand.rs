@@ -6,6 +6,8 @@ use std::cell::{OnceCell, RefCell};
 use linkwear_runtime::{Entry, Sizes, System};
 
 use crate::derive::{Block, Equations, Function};
+use crate::expr::{ExprId, Graph};
+use crate::sparse_rows::SparseRows;
 
 use super::Routine;
 use super::groups::{WhenAsked, of_group};
@@ -14,14 +16,43 @@ use super::lower::lower_function;
 /// What has been lowered.
 pub type Lowered = WhenAsked<Routine>;
 
+/// The position residuals of all rows, then what is not always zero of their Jacobian by all speeds.
+#[derive(Debug)]
+struct Rows {
+    routine: Routine,
+    residuals: usize,
+    /// By row, the speeds of these entries.
+    speeds: Vec<Vec<usize>>,
+}
+
+impl Rows {
+    fn new((graph, whole): (&Graph, &Function), all_speeds: usize) -> Self {
+        let entries_of = |name: &str| {
+            let block = whole.outputs.iter().find(|block| block.name == name);
+            block.map_or(&[][..], |block| &block.entries)
+        };
+        let residuals = entries_of("phi");
+        let mut outputs = residuals.to_vec();
+        let mut speeds = Vec::with_capacity(residuals.len());
+        for row in entries_of("phi_q").chunks_exact(all_speeds.max(1)) {
+            let entries = row.iter().enumerate().filter(|(_, entry)| graph.as_constant(**entry) != Some(0.0));
+            let (of_row, entries): (Vec<usize>, Vec<ExprId>) = entries.unzip();
+            outputs.extend(entries);
+            speeds.push(of_row);
+        }
+        let residuals = residuals.len();
+        let function = Function { outputs: vec![Block::vector("rows", outputs)], ..whole.clone() };
+        Self { routine: Routine::for_a_look(&lower_function(graph, &function)), residuals, speeds }
+    }
+}
+
 /// Equations, to be evaluated at once.
 #[derive(Debug)]
 pub struct AtHand<'a> {
     equations: &'a Equations,
     lowered: &'a Lowered,
     sizes: Sizes,
-    /// The position residuals of all rows and their Jacobian by all speeds alone.
-    rows: OnceCell<Routine>,
+    rows: OnceCell<Rows>,
     /// Its length is known when a function is lowered, too late for those who ask for the sizes.
     workspace: RefCell<Vec<f64>>,
 }
@@ -40,18 +71,19 @@ impl<'a> AtHand<'a> {
 
     /// Of the answer of [`Entry::EquationsOfMotion`] the position residuals and the Jacobian, bit by bit: an analysis asks for them
     /// hundreds of times, and they are a small part of it.
-    pub fn rows(&self, input: &[f64]) -> Vec<f64> {
-        let routine = self.rows.get_or_init(|| {
+    pub fn rows(&self, input: &[f64]) -> (Vec<f64>, SparseRows) {
+        let all_speeds = self.sizes.all_speeds;
+        let Rows { routine, residuals, speeds } = self.rows.get_or_init(|| {
             #[expect(clippy::expect_used, reason = "the derivation makes a function for every entry")]
-            let (graph, whole) =
+            let of_entry =
                 self.equations.function(Entry::EquationsOfMotion).expect("a function for every entry");
-            let is_of_rows = |block: &&Block| ["phi", "phi_q"].contains(&&*block.name);
-            let outputs = whole.outputs.iter().filter(is_of_rows).cloned().collect();
-            Routine::for_a_look(&lower_function(graph, &Function { outputs, ..whole.clone() }))
+            Rows::new(of_entry, all_speeds)
         });
         let mut output = vec![0.0; routine.outputs()];
         self.run(routine, input, &mut output);
-        output
+        let mut entries = output.split_off(*residuals).into_iter();
+        let row = |speeds: &Vec<usize>| speeds.iter().copied().zip(entries.by_ref()).collect();
+        (output, SparseRows::new(all_speeds, speeds.iter().map(row).collect()))
     }
 
     fn run(&self, routine: &Routine, input: &[f64], output: &mut [f64]) {

@@ -231,6 +231,8 @@ impl<'a> Lowerer<'a> {
     }
 
     fn finish(mut self, roots: &[ExprId]) -> Tape {
+        let direct = roots.iter().filter(|root| self.defined[root.index()].is_none()).count();
+        self.tape.direct.reserve_exact(direct);
         for (index, root) in (0..).zip(roots) {
             let store = (index, self.operand(*root));
             match self.defined[root.index()] {

@@ -4,7 +4,7 @@ use super::held::conflicts;
 use super::units::Units;
 use crate::error::AssemblyError;
 use crate::evaluate::Evaluator;
-use crate::linear::{Orthogonal, add_scaled, largest};
+use crate::linear::{Shortest, add_scaled, largest};
 
 /// Largest residual [rad/s, own units of length per second] per unit of the largest speed (at least 1).
 const CONSISTENT: f64 = 1e-10;
@@ -55,7 +55,7 @@ fn solve(
     let (n, m) = (wish.len(), evaluator.sizes().rows);
     let mut v = wish.to_vec();
     let mut delta = vec![0.0; n];
-    let mut decomposition = Orthogonal::new(m, n);
+    let mut decomposition: Option<Shortest> = None;
     let kept = evaluator.kept().to_vec();
     // Rows that no speed moves, which plane mechanisms have many of, ask for nothing.
     let mut rows: Vec<usize> = Vec::new();
@@ -79,8 +79,9 @@ fn solve(
             for (place, row) in rows.iter().enumerate() {
                 jacobian.copy_within(row * n..(row + 1) * n, place * n);
             }
-            decomposition.factor(&jacobian, rows.len(), n, TOLERANCE);
+            decomposition = Some(Shortest::new(&jacobian[..rows.len() * n], rows.len(), n, TOLERANCE));
         }
+        let Some(decomposition) = &mut decomposition else { break };
         let right: Vec<f64> = rows.iter().map(|row| -closure.speeds[*row] * units.rows[kept[*row]]).collect();
         decomposition.solve(&right, &mut delta);
         units.restore(&mut delta);

@@ -3,11 +3,10 @@
 
 use std::rc::Rc;
 
-use nalgebra::DMatrix;
-
 use crate::expr::{Expr, Scope, Section, Vec3};
 use crate::id::{JointId, ParameterId};
 use crate::model::Mechanism;
+use crate::sparse_rows::SparseRows;
 
 use super::names::{INPUT_RATES, variable_names};
 use super::own_states::{OwnState, own_states};
@@ -94,7 +93,7 @@ pub struct Deriver<'g> {
     pub contacts: Vec<ContactWrench<'g>>,
     pub keep: Vec<bool>,
     /// Of the kept rows by the free speeds, at closed positions.
-    pub jacobians: Vec<DMatrix<f64>>,
+    pub jacobians: Vec<SparseRows>,
     /// See [`Guide::link_by_link`].
     pub link_by_link: bool,
     /// See [`Guide::whole_equations`].

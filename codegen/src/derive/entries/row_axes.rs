@@ -1,10 +1,9 @@
 //! Along which axes the rows of loops are shortest.
 //! In: [`Mechanism`], [`Topology`]. Out: a choice, the same for all entry points. Never knows positions.
 
-use nalgebra::DMatrix;
-
 use crate::expr::{Expr, Scope};
 use crate::model::{Closure, Mechanism, Topology};
+use crate::sparse_rows::SparseRows;
 
 use super::deriver::{Deriver, inputs};
 use crate::derive::closure::{cut_rows, row_count};
@@ -105,9 +104,11 @@ fn operations(mechanism: &Mechanism, topology: &Topology) -> [usize; 2] {
     // In a plane, rows out of it say nothing.
     rows.retain(|kept| partition.free.iter().any(|speed| !kept.jacobian[*speed].is_zero()));
     let entry = |row: usize, speed: usize| rows[row].jacobian[partition.free[speed]];
-    let numbers = DMatrix::from_fn(rows.len(), partition.free.len(), |row, speed| {
-        any_number(entry(row, speed), row, speed)
-    });
+    let numbers_of = |row: usize| {
+        let number = |speed: usize| (speed, any_number(entry(row, speed), row, speed));
+        (0..partition.free.len()).map(number).collect()
+    };
+    let numbers = SparseRows::new(partition.free.len(), (0..rows.len()).map(numbers_of).collect());
     let problem = Problem {
         motion,
         v: &instant.state.v,

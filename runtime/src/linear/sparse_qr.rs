@@ -4,12 +4,12 @@
 //! Reflections by Householder; each is applied to the columns alone that have a place in common with it. The column with the largest
 //! entry left comes next, in large matrices the one with the fewest, so that loops in a row cost as much as there are of them.
 
-use nalgebra::DMatrix;
+use super::entries::{Entries, add_products, subtract};
 
 /// From as many places or columns as this, the column with the fewest entries left comes next, of those whose largest is not much
 /// below the largest of all, and its reflection leaves the places where they are: loops in a row then cost as much as there are of
 /// them. What is smaller fills anyway.
-const SPARSE: usize = 64;
+pub const SPARSE: usize = 64;
 
 /// A column whose largest entry is below this part of the largest of all waits. A pivot this much smaller loses one digit.
 const LARGE_ENOUGH: f64 = 0.1;
@@ -18,7 +18,8 @@ const LARGE_ENOUGH: f64 = 0.1;
 const ROUNDS: usize = 3;
 
 /// Decomposition of columns of one length.
-pub struct PivotedQr {
+#[derive(Clone, Debug)]
+pub struct SparseQr {
     height: usize,
     /// The triangle: of the column of every pivot the entries in the lines of the pivots before it, by number, without zeros.
     above: Vec<Vec<(usize, f64)>>,
@@ -33,32 +34,23 @@ pub struct PivotedQr {
 
 /// Columns as they are reduced.
 struct Columns {
-    /// What is left of each by place.
-    left: Vec<Vec<f64>>,
-    /// Of what is left, the largest magnitude and how many are not zero.
+    /// What is left of each, places ascending.
+    left: Vec<Entries>,
+    /// Of what is left, the largest magnitude.
     largest: Vec<f64>,
-    entries: Vec<usize>,
     /// By place, the columns that have or had an entry there.
     at_place: Vec<Vec<usize>>,
+    work: Entries,
 }
 
 impl Columns {
-    fn new(height: usize, left: Vec<Vec<f64>>) -> Self {
+    fn new(height: usize, left: Vec<Entries>) -> Self {
         let mut at_place = vec![Vec::new(); height];
         for (column, entries) in left.iter().enumerate() {
-            let places = entries.iter().enumerate().filter(|(_, entry)| **entry != 0.0);
-            places.for_each(|(place, _)| at_place[place].push(column));
+            entries.iter().for_each(|(place, _)| at_place[*place].push(column));
         }
-        let (largest, entries) = (vec![0.0; left.len()], vec![0; left.len()]);
-        let mut columns = Self { left, largest, entries, at_place };
-        (0..columns.left.len()).for_each(|column| columns.measure(column));
-        columns
-    }
-
-    fn measure(&mut self, column: usize) {
-        let left = &self.left[column];
-        self.largest[column] = amax(left);
-        self.entries[column] = left.iter().filter(|entry| **entry != 0.0).count();
+        let largest = left.iter().map(|entries| amax(entries)).collect();
+        Self { left, largest, at_place, work: Vec::new() }
     }
 
     /// Which of these comes next, by its number in the list.
@@ -72,31 +64,27 @@ impl Columns {
         }
         let least = LARGE_ENOUGH * self.largest[list[largest]];
         let large = (0..list.len()).filter(|at| self.largest[list[*at]] >= least);
-        large.min_by_key(|at| (self.entries[list[*at]], list[*at])).unwrap_or(largest)
+        large.min_by_key(|at| (self.left[list[*at]].len(), list[*at])).unwrap_or(largest)
     }
 
-    /// Reflects a column and takes its place `head` out of it. Out: what was there.
-    fn reflect(&mut self, column: usize, axis: &[(usize, f64)], head: usize) -> f64 {
+    /// Reflects a column and takes its place `head`, the first of the axis, out of it. Out: what was there.
+    fn reflect(&mut self, column: usize, axis: &[(usize, f64)]) -> f64 {
+        let Some(((head, part), others)) = axis.split_first() else { return 0.0 };
         let left = &mut self.left[column];
-        let is_new = |(place, _): &&(usize, f64)| left[*place] == 0.0;
-        let new: Vec<usize> = axis.iter().filter(is_new).map(|(place, _)| *place).collect();
-        let changes = reflect(axis, left);
-        let leaves = std::mem::take(&mut left[head]);
-        for place in new {
-            if left[place] != 0.0 {
-                self.at_place[place].push(column);
-            }
+        let at_head = left.iter().position(|(place, _)| place == head).map_or(0.0, |at| left.remove(at).1);
+        let along = add_products(at_head * part, others, left);
+        if along != 0.0 {
+            let is_new = |place: usize| self.at_place[place].push(column);
+            subtract(left, (2.0 * along, others), &mut self.work, is_new);
         }
-        if changes || leaves != 0.0 {
-            self.measure(column);
-        }
-        leaves
+        self.largest[column] = amax(left);
+        at_head - 2.0 * along * part
     }
 }
 
-impl PivotedQr {
-    /// Decomposes columns of `height` entries.
-    pub fn new(height: usize, columns: Vec<Vec<f64>>) -> Self {
+impl SparseQr {
+    /// Decomposes columns of `height` entries, given by those that are not zero, places ascending.
+    pub fn new(height: usize, columns: Vec<Entries>) -> Self {
         let count = columns.len();
         let is_sparse = height.max(count) >= SPARSE;
         let mut columns = Columns::new(height, columns);
@@ -120,7 +108,7 @@ impl PivotedQr {
                         continue;
                     }
                     met[column] = Some(step);
-                    let leaves = columns.reflect(column, &axis, head);
+                    let leaves = columns.reflect(column, &axis);
                     if leaves != 0.0 {
                         above[column].push((step, leaves));
                     }
@@ -134,23 +122,28 @@ impl PivotedQr {
         Self { height, above, order, pivots, axes, heads }
     }
 
+    /// Length of the columns.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
     /// One per column or per entry of a column, whichever are fewer.
     pub fn pivots(&self) -> &[f64] {
         &self.pivots
     }
 
-    /// Unit directions at right angles to the first `rank` columns of the decomposition, as columns.
-    pub fn beyond(&self, rank: usize) -> DMatrix<f64> {
+    /// Unit directions at right angles to the first `rank` columns of the decomposition and to each other.
+    pub fn beyond(&self, rank: usize) -> Vec<Vec<f64>> {
         let sign: f64 = self.pivots.iter().map(|pivot| pivot.signum()).product();
-        let mut directions = DMatrix::zeros(self.height, self.height - rank);
-        let free = (0..self.height).filter(|place| !self.heads[..rank].contains(place));
-        for (place, mut direction) in free.zip(directions.column_iter_mut()) {
+        let mut is_free = vec![true; self.height];
+        self.heads[..rank].iter().for_each(|head| is_free[*head] = false);
+        let direction = |place: usize| {
+            let mut direction = vec![0.0; self.height];
             direction[place] = sign;
-            for axis in self.axes.iter().rev() {
-                reflect(axis, direction.as_mut_slice());
-            }
-        }
-        directions
+            self.axes.iter().rev().for_each(|axis| reflect(axis, &mut direction));
+            direction
+        };
+        (0..self.height).filter(|place| is_free[*place]).map(direction).collect()
     }
 
     /// The weakest singular value of the first `rank` columns of the decomposition, or somewhat above it.
@@ -189,27 +182,25 @@ impl PivotedQr {
     }
 }
 
-fn amax(values: &[f64]) -> f64 {
-    values.iter().fold(0.0, |most, value| if value.abs() > most { value.abs() } else { most })
+fn amax(entries: &[(usize, f64)]) -> f64 {
+    entries.iter().fold(0.0, |most, (_, entry)| if entry.abs() > most { entry.abs() } else { most })
 }
 
-/// The free place with the largest entry, the first among equals.
-fn largest_place(column: &[f64], is_free: &[bool]) -> usize {
-    let mut best = None;
-    for place in (0..column.len()).filter(|place| is_free[*place]) {
-        if best.is_none_or(|best: usize| column[place].abs() > column[best].abs()) {
-            best = Some(place);
-        }
-    }
-    best.unwrap_or(0)
+/// The place of the largest entry, the first among equals; of a column of zeros, whose places are all free, the first free one.
+fn largest_place(column: &[(usize, f64)], is_free: &[bool]) -> usize {
+    let larger =
+        |best: (usize, f64), entry: (usize, f64)| if entry.1.abs() > best.1.abs() { entry } else { best };
+    let largest = column.iter().copied().reduce(larger);
+    largest.map(|(place, _)| place).or_else(|| is_free.iter().position(|is_free| *is_free)).unwrap_or(0)
 }
 
 /// What a column leaves at place `head`, and the axis of the reflection that takes its other places away, the head first.
-fn axis(column: &[f64], head: usize) -> (f64, Vec<(usize, f64)>) {
-    let others = column.iter().copied().enumerate().filter(|(place, entry)| *entry != 0.0 && *place != head);
-    let mut axis: Vec<(usize, f64)> = std::iter::once((head, column[head])).chain(others).collect();
+fn axis(column: &[(usize, f64)], head: usize) -> (f64, Entries) {
+    let others = column.iter().filter(|(place, _)| *place != head);
+    let lead = column.iter().find(|(place, _)| *place == head).map_or(0.0, |(_, entry)| *entry);
+    let mut axis: Entries = std::iter::once(&(head, lead)).chain(others).copied().collect();
     let square: f64 = axis.iter().map(|(_, entry)| entry * entry).sum();
-    let (norm, lead) = (square.sqrt(), column[head]);
+    let norm = square.sqrt();
     let size = (2.0 * (square + lead.abs() * norm)).sqrt();
     if size == 0.0 {
         return (0.0, Vec::new());
@@ -219,29 +210,28 @@ fn axis(column: &[f64], head: usize) -> (f64, Vec<(usize, f64)>) {
     (if lead < 0.0 { norm } else { -norm }, axis)
 }
 
-/// Reflects a vector; whether that changed it.
-fn reflect(axis: &[(usize, f64)], vector: &mut [f64]) -> bool {
+/// Reflects a vector.
+fn reflect(axis: &[(usize, f64)], vector: &mut [f64]) {
     let along: f64 = axis.iter().map(|(place, part)| vector[*place] * part).sum();
     if along != 0.0 {
         axis.iter().for_each(|(place, part)| vector[*place] -= 2.0 * along * part);
     }
-    along != 0.0
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::samples::random;
     use super::*;
+    use nalgebra::DMatrix;
 
     /// Columns of a chain: three entries each, one in common with the next.
-    fn chain(links: usize) -> Vec<Vec<f64>> {
-        let mut generator = 11;
-        let column = |link: usize| {
-            let mut column = vec![0.0; 2 * links + 1];
-            column[2 * link..2 * link + 3].fill_with(|| 1.5 + random(&mut generator));
-            column
+    fn chain(links: usize) -> Vec<Entries> {
+        let mut seed = 11_u64;
+        let mut drawn = || {
+            seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            0.5 + (seed >> 40) as f64 / f64::from(1 << 23)
         };
-        (0..links).map(column).collect()
+        let mut column = |link: usize| (2 * link..2 * link + 3).map(|place| (place, drawn())).collect();
+        (0..links).map(&mut column).collect()
     }
 
     #[test]
@@ -249,8 +239,11 @@ mod tests {
         // Some below, some above the length from which places stay where they are.
         for links in [9, 60] {
             let (columns, height) = (chain(links), 2 * links + 1);
-            let given = DMatrix::from_fn(height, links, |i, j| columns[j][i]);
-            let factor = PivotedQr::new(height, columns);
+            let mut given = DMatrix::zeros(height, links);
+            for (at, column) in columns.iter().enumerate() {
+                column.iter().for_each(|(place, entry)| given[(*place, at)] = *entry);
+            }
+            let factor = SparseQr::new(height, columns);
             assert!(factor.pivots().windows(2).all(|pair| pair[1].abs() > 0.05 * pair[0].abs()));
             let weakest = given.singular_values().min();
             // Three rounds come near it; what they find is no less.
@@ -260,7 +253,8 @@ mod tests {
             let reached = given.tr_mul(&(&given * amounts));
             // The condition of the products is below a thousand, the numbers below a hundred.
             assert!(reached.iter().zip(&right).all(|(a, b)| (a - b).abs() < 1e-11), "{reached}");
-            let beyond = factor.beyond(links);
+            let beyond = factor.beyond(links).concat();
+            let beyond = DMatrix::from_column_slice(height, links + 1, &beyond);
             assert!(given.tr_mul(&beyond).amax() < 1e-14);
             assert!((beyond.tr_mul(&beyond) - DMatrix::identity(links + 1, links + 1)).amax() < 1e-14);
         }
@@ -269,7 +263,7 @@ mod tests {
     #[test]
     fn long_chains_take_no_more_entries_a_link_than_short_ones() {
         let entries = |links: usize| {
-            let factor = PivotedQr::new(2 * links + 1, chain(links));
+            let factor = SparseQr::new(2 * links + 1, chain(links));
             let axes: usize = factor.axes.iter().map(Vec::len).sum();
             (axes + factor.above.iter().map(Vec::len).sum::<usize>()) as f64 / links as f64
         };
@@ -280,12 +274,12 @@ mod tests {
     #[test]
     fn columns_of_zeros_and_repeated_ones_have_no_pivots() {
         let mut columns = chain(3);
-        columns.insert(1, vec![0.0; 7]);
+        columns.insert(1, Vec::new());
         columns.push(columns[0].clone());
-        let factor = PivotedQr::new(7, columns);
+        let factor = SparseQr::new(7, columns);
         let pivots: Vec<f64> = factor.pivots().iter().map(|pivot| pivot.abs()).collect();
         assert!(pivots.len() == 5 && pivots[..3].iter().all(|pivot| *pivot > 0.1));
         assert!(pivots[3..].iter().all(|pivot| *pivot < 1e-15));
-        assert_eq!(factor.beyond(3).shape(), (7, 4));
+        assert!(factor.beyond(3).len() == 4 && factor.beyond(3)[0].len() == 7);
     }
 }
