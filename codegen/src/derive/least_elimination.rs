@@ -1,16 +1,18 @@
 //! What elimination takes at least, by pattern: so that what is much too long is not even tried.
-//! In: the tree of links, which entries of rows are not zero. Out: a count. Never knows expressions.
+//! In: the tree of links, which entries of rows are not zero. Out: whether it takes more than a number of operations. Never knows
+//! expressions.
 
 use super::linkage::Linkage;
 
-/// Operations of the elimination of these speeds from the leaves to the root, then of these rows, at least: a product for every entry
-/// that changes. `free`: speeds of the pattern's columns, among all.
-pub fn least_elimination(
+/// Whether the elimination of these speeds from the leaves to the root, then of these rows, takes more operations than that: at least a
+/// product for every entry that changes. `free`: speeds of the pattern's columns, among all.
+pub fn elimination_takes_more(
+    than: usize,
     linkage: &Linkage,
     free: &[usize],
     pattern: &[Vec<bool>],
     (speeds, rows): (&[usize], &[usize]),
-) -> usize {
+) -> bool {
     let mut link_of = vec![0; linkage.speeds()];
     for (at, link) in linkage.links.iter().enumerate() {
         link.speeds().for_each(|speed| link_of[speed] = at);
@@ -31,13 +33,17 @@ pub fn least_elimination(
         let inwards = inwards(*speed);
         let own: Vec<usize> = (0..rows.len()).filter(|row| touched[*row][*speed]).collect();
         operations += entries(inwards.len() + own.len());
+        // Long machines end here.
+        if operations > than {
+            return true;
+        }
         for row in &own {
             inwards.iter().for_each(|other| touched[*row][*other] = true);
             own.iter().for_each(|other| tied[*row][*other] = true);
         }
     }
     // In their order: another one saves part of it, which tree and fill-in by speeds leave little of.
-    operations + tied.iter().map(|row| row.iter().filter(|tied| **tied).count()).sum::<usize>()
+    operations + tied.iter().map(|row| row.iter().filter(|tied| **tied).count()).sum::<usize>() > than
 }
 
 /// Of the upper half of a symmetric matrix.

@@ -12,7 +12,7 @@ use super::dynamics::{Asked, shapes_of};
 use super::fields::Shapes;
 use super::forward::{Forward, Problem, Way};
 use super::kept_rows::KeptRow;
-use super::least_elimination::least_elimination;
+use super::least_elimination::elimination_takes_more;
 use super::local_modes::local_modes;
 use super::plan::{Plan, PlanBlock};
 use super::solve::{Order, Solution};
@@ -230,17 +230,17 @@ pub fn forward<'g>(
     let local = local_modes(problem.motion, &pattern, &plan.rest, &problem.partition.free);
     let constant = large_entries(problem.rows.len(), speeds, jacobians);
     let search = Search { problem };
-    let least = |block: &PlanBlock| {
+    let takes_more = |than: usize, block: &PlanBlock| {
         let (linkage, free) = (problem.motion.poses.geometry.linkage, &problem.partition.free);
-        least_elimination(linkage, free, &pattern, (&block.speeds, &block.rows))
+        elimination_takes_more(than, linkage, free, &pattern, (&block.speeds, &block.rows))
     };
     let all = PlanBlock { rows: (0..pattern.len()).collect(), speeds: (0..speeds).collect() };
     let mut first = plain;
     // What has been gone link by link, if it has.
     let mut gone_by_links = None;
-    if link_by_link || least(&all) > MOST_TO_ELIMINATE {
+    if link_by_link || takes_more(MOST_TO_ELIMINATE, &all) {
         let known = by_links();
-        let is_longer = |block| known.as_ref().is_some_and(|(operations, _)| *operations < least(block));
+        let is_longer = |block| known.as_ref().is_some_and(|(operations, _)| takes_more(*operations, block));
         let rows_first_is_longer = plan.blocks.is_empty() || is_longer(&plan.rest);
         let all_is_longer = is_longer(&all);
         match known {

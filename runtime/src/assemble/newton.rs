@@ -7,7 +7,7 @@ use super::units::Units;
 use crate::error::AssemblyError;
 use crate::evaluate::{CLOSED_AT_START, Evaluator};
 use crate::layout::turn;
-use crate::linear::{Orthogonal, dot, largest};
+use crate::linear::{Shortest, dot, largest};
 
 const MAX_ITERATIONS: usize = 60;
 /// Singular values below this part of the largest are not followed; first strict, then bolder when stuck.
@@ -31,7 +31,6 @@ pub(super) struct Newton<'e, 'a> {
     angles: Vec<bool>,
     units: Units,
     iterations: usize,
-    decomposition: Orthogonal,
 }
 
 impl<'e, 'a> Newton<'e, 'a> {
@@ -45,8 +44,6 @@ impl<'e, 'a> Newton<'e, 'a> {
         let (columns, pose_rows) = frozen(evaluator, held);
         let angles =
             evaluator.description().speeds.iter().map(|speed| speed.unit.starts_with("rad")).collect();
-        let rows = evaluator.sizes().all_rows + pose_rows.len();
-        let decomposition = Orthogonal::new(rows, evaluator.sizes().speeds);
         Self {
             t,
             guess: guess.to_vec(),
@@ -57,7 +54,6 @@ impl<'e, 'a> Newton<'e, 'a> {
             angles,
             units: Units::new(evaluator, t, guess, wish),
             iterations: 0,
-            decomposition,
             evaluator,
         }
     }
@@ -145,8 +141,7 @@ impl<'e, 'a> Newton<'e, 'a> {
             jacobian.extend(row);
             right.push(0.0);
         }
-        self.decomposition.factor(&jacobian, right.len(), n, tolerance);
-        self.decomposition.solve(&right, &mut delta);
+        Shortest::new(&jacobian, right.len(), n, tolerance).solve(&right, &mut delta);
         delta
     }
 
