@@ -13,6 +13,7 @@ use super::geometry::Geometry;
 use super::kinematics::{Pose, Poses};
 use super::link_mass::LinkMass;
 use super::linkage::Freedom;
+use super::screws::{Screw, inboard_screws};
 use super::turned::Axes;
 use super::wrench::Wrench;
 
@@ -56,7 +57,8 @@ pub fn reduced_mass_matrix<'g>(
 ) -> Vec<Vec<Expr<'g>>> {
     let Geometry { g, linkage, .. } = poses.geometry;
     let n = linkage.speeds();
-    let mut columns = Columns { poses, axes, matrix: vec![vec![g.zero(); n]; n] };
+    let screws = if axes.screws_outboard { inboard_screws(poses) } else { Vec::new() };
+    let mut columns = Columns { poses, axes, screws, matrix: vec![vec![g.zero(); n]; n] };
     let mut composites: Vec<Composite<'g>> = masses
         .iter()
         .map(|LinkMass { rigid, .. }| Composite {
@@ -143,23 +145,21 @@ impl<'g> ModalColumns<'g> {
                 [-turn, lever - slide]
             })
             .collect();
-        let moved: Vec<Wrench<'g>> = screws.iter().map(|screw| whole.momentum(*screw)).collect();
+        let moving: Vec<Wrench<'g>> = self
+            .wrenches
+            .iter()
+            .zip(&screws)
+            .map(|(wrench, screw)| *wrench + whole.momentum(*screw))
+            .collect();
         for k in 0..screws.len() {
             for l in 0..=k {
-                let terms = [
-                    self.wrenches[k].power(screws[l][0], screws[l][1]),
-                    self.wrenches[l].power(screws[k][0], screws[k][1]),
-                    moved[k].power(screws[l][0], screws[l][1]),
-                ];
-                for term in terms {
-                    self.block[k][l] += term;
-                }
+                // What the body alone has across, once for each, and once for both what it has as a whole.
+                self.block[k][l] += moving[k].power(screws[l][0], screws[l][1]);
+                self.block[k][l] += self.wrenches[l].power(screws[k][0], screws[k][1]);
                 self.block[l][k] = self.block[k][l];
             }
         }
-        for (wrench, moved) in self.wrenches.iter_mut().zip(moved) {
-            *wrench += moved;
-        }
+        self.wrenches = moving;
     }
 
     fn fill(self, columns: &mut Columns<'_, 'g>, at: usize) {
@@ -303,6 +303,8 @@ impl<'g> Composite<'g> {
 struct Columns<'a, 'g> {
     poses: &'a Poses<'g>,
     axes: Axes,
+    /// By link, of the speeds inboard of it, where these are asked along its axes.
+    screws: Vec<Vec<(usize, Screw<'g>)>>,
     matrix: Vec<Vec<Expr<'g>>>,
 }
 
@@ -324,6 +326,14 @@ impl<'g> Columns<'_, 'g> {
     /// Carries a momentum column of a link on to the ground and reads off the entries of M. The speeds inboard feel of it what
     /// `freedom` passes.
     fn passed(&mut self, from: usize, column: usize, freedom: Freedom, wrench: Wrench<'g>) {
+        if self.axes.screws_outboard {
+            for (row, [turn, slide]) in &self.screws[from] {
+                let sum = self.matrix[*row][column] + wrench.power(*turn, *slide);
+                self.matrix[*row][column] = sum;
+                self.matrix[column][*row] = sum;
+            }
+            return;
+        }
         let poses = self.poses;
         let linkage = poses.geometry.linkage;
         let passed = |at: usize, freedom: Freedom, carried: Wrench<'g>, ground: Vec3<'g>| {

@@ -59,6 +59,7 @@ mod responses;
 mod rigid_part;
 mod row;
 mod rows;
+mod screws;
 mod shortest_way;
 mod slid_drive;
 mod solve;

@@ -13,6 +13,7 @@ pub struct Axes {
     /// Of those, what a link's mass does at its joint comes by the acceleration of the joint on the parent link.
     pub masses_inboard: bool,
     /// What a joint on the ground feels of links outboard comes along their axes, to which its screw is turned; else along its own.
+    /// So does what every joint feels of masses.
     pub screws_outboard: bool,
 }
 

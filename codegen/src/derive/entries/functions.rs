@@ -345,7 +345,7 @@ impl<'g> Deriver<'g> {
         let motion = &instant.state.motion;
         g.begin_section("mass matrix by composite bodies");
         let [links, ground] = [Axes::ALL[0], Axes::ALL[2]];
-        let axes = if self.is_short() { vec![links, ground] } else { vec![links] };
+        let axes = if self.is_short() { vec![links, ground, Axes::BY_SCREWS] } else { vec![links] };
         let matrices = axes.into_iter().map(|axes| {
             let matrix = mass_matrix(&motion.poses, masses, axes);
             let entries: Vec<Expr<'g>> =
