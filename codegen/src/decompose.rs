@@ -5,7 +5,7 @@
 use nalgebra::{DMatrix, DVector, Dyn, SVD, SymmetricEigen};
 
 /// Whether all numbers are finite.
-pub fn is_finite(matrix: &DMatrix<f64>) -> bool {
+fn is_finite(matrix: &DMatrix<f64>) -> bool {
     matrix.iter().all(|value| value.is_finite())
 }
 

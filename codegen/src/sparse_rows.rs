@@ -1,7 +1,7 @@
 //! Matrices that are mostly zeros, by rows: Jacobians of long mechanisms have some ten entries in a row of hundreds.
 //! In: entries. Out: rows, products, parts. Never knows what a row stands for.
 
-use linkwear_runtime::linear::Entries;
+use linkwear_runtime::linear::{Entries, entries_of, largest_entry, length};
 use nalgebra::{DMatrix, DVector};
 
 /// A matrix as its rows, without their zeros.
@@ -20,8 +20,7 @@ impl SparseRows {
 
     /// Of all entries, row by row.
     pub fn from_entries(columns: usize, entries: &[f64]) -> Self {
-        let entries_of = |row: &[f64]| row.iter().copied().enumerate().collect();
-        Self::new(columns, entries.chunks_exact(columns.max(1)).map(entries_of).collect())
+        Self { columns, rows: entries.chunks_exact(columns.max(1)).map(entries_of).collect() }
     }
 
     /// One row for each of the columns, with nothing but 1 there.
@@ -44,11 +43,6 @@ impl SparseRows {
         &self.rows[row]
     }
 
-    /// All rows.
-    pub fn rows(&self) -> impl Iterator<Item = &[(usize, f64)]> {
-        self.rows.iter().map(Vec::as_slice)
-    }
-
     /// The rows that are not all zero.
     pub fn rows_that_say_something(&self) -> Vec<usize> {
         (0..self.rows.len()).filter(|row| !self.rows[*row].is_empty()).collect()
@@ -56,12 +50,12 @@ impl SparseRows {
 
     /// Euclidean length of a row.
     pub fn length(&self, row: usize) -> f64 {
-        self.rows[row].iter().map(|(_, entry)| entry * entry).sum::<f64>().sqrt()
+        length(&self.rows[row])
     }
 
     /// Largest magnitude of a row.
     pub fn largest(&self, row: usize) -> f64 {
-        self.rows[row].iter().map(|(_, entry)| entry.abs()).fold(0.0, f64::max)
+        largest_entry(&self.rows[row])
     }
 
     /// Whether all numbers are finite.
@@ -92,8 +86,7 @@ impl SparseRows {
 
     /// Puts a vector in the place of a row.
     pub fn set_row(&mut self, row: usize, vector: &DVector<f64>) {
-        let entries = vector.iter().copied().enumerate();
-        self.rows[row] = entries.filter(|(_, entry)| *entry != 0.0).collect();
+        self.rows[row] = entries_of(vector.as_slice());
     }
 
     /// Rows and columns change places.
@@ -114,15 +107,15 @@ impl SparseRows {
     pub fn scaled(mut self, factor: impl Fn(usize, usize) -> f64) -> Self {
         for (at, row) in self.rows.iter_mut().enumerate() {
             row.iter_mut().for_each(|(column, entry)| *entry *= factor(at, *column));
-            row.retain(|(_, entry)| *entry != 0.0);
         }
-        self
+        // What is too small for a number is zero then.
+        Self::new(self.columns, self.rows)
     }
 
     /// The matrix times a vector.
     pub fn times(&self, vector: &DVector<f64>) -> DVector<f64> {
-        let along = |row: &[(usize, f64)]| row.iter().map(|(column, entry)| entry * vector[*column]).sum();
-        DVector::from_iterator(self.rows.len(), self.rows().map(along))
+        let along = |row: &Entries| row.iter().map(|(column, entry)| entry * vector[*column]).sum();
+        DVector::from_iterator(self.rows.len(), self.rows.iter().map(along))
     }
 
     /// The transpose times a vector.
@@ -159,7 +152,7 @@ mod tests {
         for columns in [&[1, 3][..], &[3, 0, 1]] {
             let chosen = sparse.select_columns(columns);
             assert_eq!(chosen.dense(), dense.select_columns(columns));
-            assert!(chosen.rows().all(|row| row.is_sorted_by_key(|(column, _)| *column)));
+            assert!(chosen.rows.iter().all(|row| row.is_sorted_by_key(|(column, _)| *column)));
         }
         assert_eq!(sparse.select_rows(&[2, 0]).dense(), dense.select_rows(&[2, 0]));
         let stacked = sparse.stack(&SparseRows::units(4, &[2]));

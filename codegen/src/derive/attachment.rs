@@ -181,6 +181,20 @@ impl<'g> NodePose<'g> {
         let turn = self.turn.get(k).copied();
         [turn.unwrap_or_else(|| self.place.scope().zero_vector()), self.slide[k]]
     }
+
+    /// The same along the section's axes, of all modal speeds.
+    pub fn section_screws(&self) -> Vec<[Vec3<'g>; 2]> {
+        (0..self.slide.len()).map(|k| self.screw(k).map(|part| self.to_section(part))).collect()
+    }
+
+    /// Twist of the floating frame per unit of every modal speed where the node is the inboard one, which stays.
+    pub fn frame_screws(&self) -> Vec<[Vec3<'g>; 2]> {
+        let against = |[turn, slide]: [Vec3<'g>; 2]| {
+            let lever = turn.cross(self.place);
+            [-turn, lever - slide]
+        };
+        (0..self.slide.len()).map(|k| against(self.screw(k))).collect()
+    }
 }
 
 #[cfg(test)]

@@ -69,6 +69,17 @@ impl<'g> Pose<'g> {
         self.rotation.transpose() * vector
     }
 
+    /// The screw of a speed that moves the parent link as `turn` and `slide` say, in this frame. What a ball carries does not turn
+    /// with what is inboard of it, and what is free does not move with it.
+    pub fn screw_outboard(&self, freedom: Freedom, [turn, slide]: [Vec3<'g>; 2]) -> [Vec3<'g>; 2] {
+        let (zero, moved) = (turn.scope().zero_vector(), self.inwards(slide + turn.cross(self.offset)));
+        match freedom {
+            Freedom::Free => [zero, zero],
+            Freedom::Ball => [zero, moved],
+            _ => [self.inwards(turn), moved],
+        }
+    }
+
     /// Pose relative to where this one is taken from, of a frame given relative to this one.
     fn then(&self, inner: Self) -> Self {
         let carried = self.rotation * inner.offset;

@@ -124,8 +124,7 @@ impl<'g> ModalColumns<'g> {
 
     /// Adds what hangs on a node, which the modes move along.
     fn carry(&mut self, node: &NodePose<'g>, pose: &Pose<'g>, hanging: &Composite<'g>) {
-        let screws: Vec<[Vec3<'g>; 2]> =
-            (0..self.wrenches.len()).map(|k| node.screw(k).map(|v| node.to_section(v))).collect();
+        let screws = node.section_screws();
         for (k, screw) in screws.iter().enumerate() {
             let momentum = hanging.momentum(*screw);
             for (l, [turn, slide]) in screws.iter().enumerate().take(k + 1) {
@@ -138,13 +137,7 @@ impl<'g> ModalColumns<'g> {
 
     /// Adds that the whole body moves when its inboard node stays.
     fn hold(&mut self, node: &NodePose<'g>, whole: &Composite<'g>) {
-        let screws: Vec<[Vec3<'g>; 2]> = (0..self.wrenches.len())
-            .map(|k| {
-                let [turn, slide] = node.screw(k);
-                let lever = turn.cross(node.place);
-                [-turn, lever - slide]
-            })
-            .collect();
+        let screws = node.frame_screws();
         let moving: Vec<Wrench<'g>> = self
             .wrenches
             .iter()
@@ -328,9 +321,7 @@ impl<'g> Columns<'_, 'g> {
     fn passed(&mut self, from: usize, column: usize, freedom: Freedom, wrench: Wrench<'g>) {
         if self.axes.screws_outboard {
             for (row, [turn, slide]) in &self.screws[from] {
-                let sum = self.matrix[*row][column] + wrench.power(*turn, *slide);
-                self.matrix[*row][column] = sum;
-                self.matrix[column][*row] = sum;
+                add(&mut self.matrix, (*row, column), wrench.power(*turn, *slide));
             }
             return;
         }
@@ -356,11 +347,16 @@ impl<'g> Columns<'_, 'g> {
             let node = poses.nodes[index].as_ref();
             for (row, entry) in link.speeds().zip(carried.generalised(link.freedom, node)) {
                 // A flexible body is met twice: at its node and at its frame.
-                let sum = self.matrix[row][column] + entry;
-                self.matrix[row][column] = sum;
-                self.matrix[column][row] = sum;
+                add(&mut self.matrix, (row, column), entry);
             }
             carried = passed(index, link.freedom, carried, ground);
         }
     }
+}
+
+/// Adds to an entry of a symmetric matrix and to its mirror, to the bit.
+fn add<'g>(matrix: &mut [Vec<Expr<'g>>], (row, column): (usize, usize), entry: Expr<'g>) {
+    let sum = matrix[row][column] + entry;
+    matrix[row][column] = sum;
+    matrix[column][row] = sum;
 }

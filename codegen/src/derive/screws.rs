@@ -10,25 +10,17 @@ use super::linkage::Freedom;
 /// Angular velocity of a link and velocity of its origin per unit of a speed, along the link's axes.
 pub type Screw<'g> = [Vec3<'g>; 2];
 
-/// By link, the speeds inboard of its joint that move it, with their screws. What a ball carries does not turn with what is inboard
-/// of it, and what is free does not move with it. A flexible body is met twice, at its node and at its frame.
+/// By link, the speeds inboard of its joint, with their screws. A flexible body is met twice, at its node and at its frame.
 pub fn inboard_screws<'g>(poses: &Poses<'g>) -> Vec<Vec<(usize, Screw<'g>)>> {
     let linkage = poses.geometry.linkage;
     let mut all: Vec<Vec<(usize, Screw<'g>)>> = Vec::with_capacity(linkage.links.len());
     for (at, link) in linkage.links.iter().enumerate() {
-        let Some(parent) = link.parent.filter(|_| link.freedom != Freedom::Free) else {
+        let Some(parent) = link.parent else {
             all.push(Vec::new());
             continue;
         };
         let pose = &poses.relative[at];
-        let carried = |(speed, [turn, slide]): (usize, Screw<'g>)| {
-            let moved = pose.inwards(slide + turn.cross(pose.offset));
-            let turned = match link.freedom {
-                Freedom::Ball => turn.scope().zero_vector(),
-                _ => pose.inwards(turn),
-            };
-            (speed, [turned, moved])
-        };
+        let carried = |(speed, screw): (usize, Screw<'g>)| (speed, pose.screw_outboard(link.freedom, screw));
         let own = linkage.links[parent].speeds().zip(own_screws(poses, parent));
         all.push(own.chain(all[parent].iter().copied()).map(carried).collect());
     }
@@ -42,12 +34,7 @@ fn own_screws<'g>(poses: &Poses<'g>, at: usize) -> Vec<Screw<'g>> {
     let unit = |axis: usize| Vec3::from_fn(|i| g.number(f64::from(u8::from(i == axis))));
     let zero = g.zero_vector();
     if let Some(node) = &poses.nodes[at] {
-        let screws = (0..node.slide.len()).map(|k| node.screw(k));
-        return match freedom {
-            Freedom::Node => screws.map(|screw| screw.map(|part| node.to_section(part))).collect(),
-            // The floating frame moves against its inboard node.
-            _ => screws.map(|[turn, slide]| [-turn, turn.cross(node.place) - slide]).collect(),
-        };
+        return if freedom == Freedom::Node { node.section_screws() } else { node.frame_screws() };
     }
     if let Some(screw) = freedom.screw() {
         return vec![screw.map(|part| g.vector(part))];

@@ -61,13 +61,9 @@ impl<'g> Wrench<'g> {
 
     /// What a joint inboard of the parent link feels of it, whose screw moves that as `turn` and `slide` say, along this link's
     /// axes: see [`Self::passed_inwards`].
-    pub fn felt_inboard(self, freedom: Freedom, pose: &Pose<'g>, [turn, slide]: [Vec3<'g>; 2]) -> Expr<'g> {
-        let moved = self.force.dot(pose.inwards(slide + turn.cross(pose.offset)));
-        match freedom {
-            Freedom::Free => self.force.scope().zero(),
-            Freedom::Ball => moved,
-            _ => self.moment.dot(pose.inwards(turn)) + moved,
-        }
+    pub fn felt_inboard(self, freedom: Freedom, pose: &Pose<'g>, screw: [Vec3<'g>; 2]) -> Expr<'g> {
+        let [turn, slide] = pose.screw_outboard(freedom, screw);
+        self.power(turn, slide)
     }
 
     /// Its power per unit of each speed that moves a link relative to its parent; of a flexible body's frame

@@ -3,7 +3,7 @@
 
 use std::cell::OnceCell;
 
-use linkwear_runtime::linear::{Entries, add_products, subtract};
+use linkwear_runtime::linear::{Entries, add_products, length, subtract};
 
 use crate::sparse_rows::SparseRows;
 
@@ -31,16 +31,16 @@ impl Rests {
         for (at, row) in rows.iter().enumerate() {
             row.iter().for_each(|(speed, _)| at_speed[*speed].push(at));
         }
-        let lengths = rows.iter().map(|row| size(row)).collect();
+        let lengths = rows.iter().map(|row| length(row)).collect();
         Self { rows, lengths, at_speed, work: Vec::new() }
     }
 
     /// Takes the direction of a row out of all. Few rows have a speed in common with it. Out: those that it changed.
     fn take_out(&mut self, kept: usize) -> Vec<usize> {
-        let length = std::mem::take(&mut self.lengths[kept]);
+        let whole = std::mem::take(&mut self.lengths[kept]);
         // Rounding is all that would be left of it.
         let mut direction = std::mem::take(&mut self.rows[kept]);
-        direction.iter_mut().for_each(|(_, entry)| *entry /= length);
+        direction.iter_mut().for_each(|(_, entry)| *entry /= whole);
         let mut near: Vec<usize> =
             direction.iter().flat_map(|(speed, _)| &self.at_speed[*speed]).copied().collect();
         near.sort_unstable();
@@ -51,16 +51,12 @@ impl Rests {
             let along = add_products(0.0, &direction, row);
             if along != 0.0 {
                 subtract(row, (along, &direction), &mut self.work, |speed| self.at_speed[speed].push(at));
-                self.lengths[at] = size(row);
+                self.lengths[at] = length(row);
                 changed.push(at);
             }
         }
         changed
     }
-}
-
-fn size(row: &[(usize, f64)]) -> f64 {
-    row.iter().map(|(_, entry)| entry * entry).sum::<f64>().sqrt()
 }
 
 /// Normalised rows at every position tried.

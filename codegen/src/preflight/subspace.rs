@@ -129,6 +129,7 @@ pub fn least_norm_within(matrix: &SparseRows, right: &DVector<f64>, tolerance: f
 fn without_zero_rows(matrix: &SparseRows) -> DMatrix<f64> {
     matrix.select_rows(&matrix.rows_that_say_something()).dense()
 }
+
 /// QR decomposition of the transpose with pivots, where they tell the rank.
 struct Factor {
     /// The rows that are not zero.

@@ -4,6 +4,21 @@
 /// Places of a vector that are not zero, ascending, with what stands there.
 pub type Entries = Vec<(usize, f64)>;
 
+/// Of a vector with its zeros.
+pub fn entries_of(vector: &[f64]) -> Entries {
+    vector.iter().copied().enumerate().filter(|(_, entry)| *entry != 0.0).collect()
+}
+
+/// Euclidean length.
+pub fn length(entries: &[(usize, f64)]) -> f64 {
+    entries.iter().map(|(_, entry)| entry * entry).sum::<f64>().sqrt()
+}
+
+/// Largest magnitude.
+pub fn largest_entry(entries: &[(usize, f64)]) -> f64 {
+    entries.iter().map(|(_, entry)| entry.abs()).fold(0.0, f64::max)
+}
+
 /// `sum` and the products of entries at one place, added in their order.
 pub fn add_products(mut sum: f64, a: &[(usize, f64)], b: &[(usize, f64)]) -> f64 {
     let mut rest = b.iter().peekable();
@@ -50,6 +65,8 @@ mod tests {
     #[test]
     fn vectors_are_subtracted_where_either_has_entries() {
         let (mut vector, mut new) = (vec![(1, 2.0), (3, 4.0), (4, 1.0)], Vec::new());
+        assert_eq!(entries_of(&[0.0, 2.0, 0.0, 4.0, 1.0]), vector);
+        assert_eq!((length(&vector), largest_entry(&vector)), (21.0_f64.sqrt(), 4.0));
         let other = [(0, 1.0), (3, 2.0), (4, 1.0), (6, -1.0)];
         assert_eq!(add_products(0.5, &vector, &other), 0.5 + 8.0 + 1.0);
         subtract(&mut vector, (2.0, &other), &mut Vec::new(), |place| new.push(place));

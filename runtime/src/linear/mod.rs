@@ -22,7 +22,7 @@ mod vector;
 #[cfg(feature = "std")]
 pub use cholesky::Cholesky;
 #[cfg(feature = "std")]
-pub use entries::{Entries, add_products, subtract};
+pub use entries::{Entries, add_products, entries_of, largest_entry, length, subtract};
 pub use gram::{factor_gram, solve_gram};
 #[cfg(feature = "std")]
 pub use lu::Lu;

@@ -3,7 +3,7 @@
 //! Of many unknowns, where the pivots leave no doubt that the rows other than zero are independent, they are sums of these rows, which
 //! costs as much as there are entries; elsewhere all of the matrix is decomposed.
 
-use super::entries::Entries;
+use super::entries::{Entries, entries_of};
 use super::orthogonal::Orthogonal;
 use super::sparse_qr::{SPARSE, SparseQr};
 
@@ -59,10 +59,7 @@ impl Shortest {
 impl IndependentRows {
     /// Nothing where it is not clear that rows other than zero are independent.
     fn new(matrix: &[f64], columns: usize, tolerance: f64) -> Option<Self> {
-        let entries = |row: &[f64]| -> Entries {
-            row.iter().copied().enumerate().filter(|(_, entry)| *entry != 0.0).collect()
-        };
-        let rows = matrix.chunks_exact(columns).map(entries).enumerate();
+        let rows = matrix.chunks_exact(columns).map(entries_of).enumerate();
         let rows: Vec<(usize, Entries)> = rows.filter(|(_, entries)| !entries.is_empty()).collect();
         if rows.is_empty() || rows.len() > columns {
             return None;

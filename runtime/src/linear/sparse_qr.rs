@@ -4,7 +4,7 @@
 //! Reflections by Householder; each is applied to the columns alone that have a place in common with it. The column with the largest
 //! entry left comes next, in large matrices the one with the fewest, so that loops in a row cost as much as there are of them.
 
-use super::entries::{Entries, add_products, subtract};
+use super::entries::{Entries, add_products, largest_entry, subtract};
 
 /// From as many places or columns as this, the column with the fewest entries left comes next, of those whose largest is not much
 /// below the largest of all, and its reflection leaves the places where they are: loops in a row then cost as much as there are of
@@ -22,12 +22,12 @@ const ROUNDS: usize = 3;
 pub struct SparseQr {
     height: usize,
     /// The triangle: of the column of every pivot the entries in the lines of the pivots before it, by number, without zeros.
-    above: Vec<Vec<(usize, f64)>>,
+    above: Vec<Entries>,
     /// The given column behind each of these.
     order: Vec<usize>,
     pivots: Vec<f64>,
     /// Unit vectors that the reflections turn round, without their zeros.
-    axes: Vec<Vec<(usize, f64)>>,
+    axes: Vec<Entries>,
     /// The place that each reflection takes away.
     heads: Vec<usize>,
 }
@@ -49,7 +49,7 @@ impl Columns {
         for (column, entries) in left.iter().enumerate() {
             entries.iter().for_each(|(place, _)| at_place[*place].push(column));
         }
-        let largest = left.iter().map(|entries| amax(entries)).collect();
+        let largest = left.iter().map(|entries| largest_entry(entries)).collect();
         Self { left, largest, at_place, work: Vec::new() }
     }
 
@@ -77,7 +77,7 @@ impl Columns {
             let is_new = |place: usize| self.at_place[place].push(column);
             subtract(left, (2.0 * along, others), &mut self.work, is_new);
         }
-        self.largest[column] = amax(left);
+        self.largest[column] = largest_entry(left);
         at_head - 2.0 * along * part
     }
 }
@@ -180,10 +180,6 @@ impl SparseQr {
             self.above[k].iter().for_each(|(i, entry)| x[*i] -= amount * entry);
         }
     }
-}
-
-fn amax(entries: &[(usize, f64)]) -> f64 {
-    entries.iter().fold(0.0, |most, (_, entry)| if entry.abs() > most { entry.abs() } else { most })
 }
 
 /// The place of the largest entry, the first among equals; of a column of zeros, whose places are all free, the first free one.
