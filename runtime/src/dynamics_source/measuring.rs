@@ -8,10 +8,10 @@ use super::wearing::Wearing;
 use crate::simulate::{TurnMeasures, TurnState};
 use crate::wear::ContactMeasure;
 
-/// A motion that has not settled after so many turns is taken as one that never does, ...
+/// A motion whose turns have not settled at this one is taken as one that never does, ...
 const MOST_TO_SETTLE: u32 = 4;
-/// ... and the mean of so many is taken that its standard error is this part of it: many measurements of a life average out what
-/// is left, and the budget tells it; ...
+/// ... and the mean of it and later ones is taken, of so many that its standard error is this part of it: many measurements of a life
+/// average out what is left, and the budget tells it; it counts alone where it is nearly settled; ...
 const SCATTERED: f64 = 1e-3;
 /// ... or of so many turns.
 const MOST_TO_AVERAGE: usize = 20;
@@ -74,22 +74,24 @@ impl Measuring {
         {
             self.stage = Stage::IsSettled;
         }
+        if self.stage == Stage::Settles && self.settle.is_none() && self.done >= MOST_TO_SETTLE {
+            self.stage = Stage::NeverSettles;
+        }
         if self.stage != Stage::Settles {
             self.turns.push(turn);
             return self.is_done(wearing);
         }
         self.last = Some(turn);
-        self.stage = match self.settle {
-            Some(settle) if self.done >= settle => Stage::IsSettled,
-            None if self.done >= MOST_TO_SETTLE => Stage::NeverSettles,
-            _ => Stage::Settles,
-        };
+        if self.settle.is_some_and(|settle| self.done >= settle) {
+            self.stage = Stage::IsSettled;
+        }
         false
     }
 
     fn is_done(&self, wearing: &Wearing<'_>) -> bool {
         let count = self.turns.len();
         let enough = self.stage == Stage::IsSettled
+            || count == 1 && self.settling.has_nearly_settled()
             || count >= MOST_TO_AVERAGE
             || wearing
                 .steadiness(None, &self.turns)

@@ -10,6 +10,11 @@ use crate::simulate::TurnState;
 /// A turn counts if later ones would differ by no more than what is asked for, although they may differ by so many times what the
 /// factor lets expect.
 const SAFETY: f64 = 2.0;
+/// Where a measurement has seen its factor itself, so many times as much may be left: by the factor of a neighbour a turn may be far off
+/// that differs little from the one before by chance, by its own it is not.
+const SEEN: f64 = 8.0;
+/// A turn that differs by so many times what is asked for is nearly settled: later ones differ by less than that.
+const NEARLY: f64 = 10.0;
 /// A factor grows by this from one measurement to the next where none was seen: it is looked at every few measurements, ...
 const GROWS: f64 = 1.5;
 /// ... and is forgotten this fast where smaller ones are seen.
@@ -57,7 +62,13 @@ impl Settling {
             self.seen = Some(self.seen.map_or(factor, |seen| seen.max(factor)));
         }
         self.last = Some(differs);
-        differs <= self.settled || SAFETY * self.contraction() * differs <= self.settled
+        let left = if self.seen.is_some() { SEEN * self.settled } else { self.settled };
+        differs <= self.settled || SAFETY * self.contraction() * differs <= left
+    }
+
+    /// Whether the last turn is nearly settled: it counts alone, where no further one is run to settle.
+    pub(super) fn has_nearly_settled(&self) -> bool {
+        self.last.is_some_and(|differs| differs <= NEARLY * self.settled)
     }
 
     /// The factor to go on with.
@@ -90,6 +101,13 @@ mod tests {
         let mut slow = Settling::new(Some(&from(0.02)), 1.1, 1e-5);
         assert!(!slow.has_settled([1e-3].into_iter()) && !slow.has_settled([5e-4].into_iter()));
         assert_eq!(slow.contraction(), 0.5);
+        assert!(!slow.has_nearly_settled());
+        // By a half again: nearly settled, and 2 times 0.5 times 9e-5 is more than eight times 1e-5.
+        assert!(!slow.has_settled([9e-5].into_iter()) && slow.has_nearly_settled());
+        // By the factor that it has seen, eight times as much may be left as by the one of its neighbour.
+        assert!(slow.has_settled([3e-5].into_iter()));
+        let mut by_neighbour = Settling::new(Some(&from(0.5)), 1.1, 1e-5);
+        assert!(!by_neighbour.has_settled([3e-5].into_iter()));
         // From afar, sixteen times as large.
         assert!(!Settling::new(Some(&from(0.02)), 2.0, 1e-5).has_settled([1e-4].into_iter()));
         let mut still = Settling::new(Some(&from(0.5)), 1.1, 1e-5);
