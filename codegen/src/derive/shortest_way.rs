@@ -134,24 +134,47 @@ impl<'g> Search<'_, 'g> {
         shorter
     }
 
-    /// The other ways to sum vectors up and to take rows.
+    /// Whether the unknowns are so few that shorter ways to eliminate them are looked for.
+    fn is_short(&self) -> bool {
+        self.problem.partition.free.len() + self.problem.rows.len() <= MOST_TO_ORDER
+    }
+
+    /// Whether rows can be taken by the wrenches of their cuts.
+    fn has_wrenches(&self, way: &Way<'_, 'g>) -> bool {
+        way.rows_first.is_some_and(|plan| !plan.blocks.is_empty()) && self.is_short()
+    }
+
+    /// The other ways to sum vectors up and to take rows, one choice after the other: each is made on the best so far.
     fn along_axes<'s>(&self, best: &mut Best<'s, 'g>) {
-        let way = best.way;
-        let unknowns = self.problem.partition.free.len() + self.problem.rows.len();
-        let short = unknowns <= MOST_TO_ORDER;
-        let by_wrenches = way.rows_first.is_some_and(|plan| !plan.blocks.is_empty()) && short;
-        let mut shorter = false;
-        for axes in Axes::choices(short).iter().copied() {
-            if short || axes != way.axes {
-                shorter |= self.offer(best, Way { axes, ..way });
-            }
-            if by_wrenches {
-                shorter |= self.offer(best, Way { axes, rows_moved: true, rows_push: true, ..way });
-            }
+        let by_wrenches = Way { rows_moved: true, rows_push: true, ..best.way };
+        let mut shorter = self.has_wrenches(&best.way) && self.offer(best, by_wrenches);
+        let axes = best.way.axes.with_other_accelerations();
+        shorter |= self.offer(best, Way { axes, ..best.way });
+        for axes in best.way.axes.with_forces(self.is_short()) {
+            shorter |= self.offer(best, Way { axes, ..best.way });
         }
-        if by_wrenches && shorter {
-            let way = best.way;
-            for (rows_moved, rows_push) in [(true, false), (false, true), (true, true)] {
+        if shorter {
+            self.by_wrenches(best);
+        }
+    }
+
+    /// The same of rows that are made in another way than those of the best so far: all axes.
+    fn along_all_axes<'s>(&self, best: &mut Best<'s, 'g>) {
+        let (way, short) = (best.way, self.is_short());
+        let mut shorter = false;
+        for axes in Axes::choices(short).iter().copied().filter(|axes| short || *axes != way.axes) {
+            shorter |= self.offer(best, Way { axes, ..way });
+        }
+        if shorter {
+            self.by_wrenches(best);
+        }
+    }
+
+    /// The other ways to take rows.
+    fn by_wrenches<'s>(&self, best: &mut Best<'s, 'g>) {
+        let way = best.way;
+        if self.has_wrenches(&way) {
+            for (rows_moved, rows_push) in [(false, false), (true, false), (false, true), (true, true)] {
                 self.offer(best, Way { rows_moved, rows_push, ..way });
             }
         }
@@ -292,7 +315,7 @@ pub fn forward<'g>(
     others(&mut |problem| {
         let search = Search { problem };
         best.gone.clear();
-        search.along_axes(&mut best);
+        search.along_all_axes(&mut best);
         search.in_order(&mut best, &constant);
     });
     // Of few unknowns other orders of elimination do as well, which are chosen from more forms.

@@ -36,6 +36,18 @@ impl Axes {
         if all { &Self::ALL } else { &Self::ALL[..4] }
     }
 
+    /// This choice with accelerations along the other axes.
+    pub const fn with_other_accelerations(self) -> Self {
+        Self { accelerations_in_ground: !self.accelerations_in_ground, ..self }
+    }
+
+    /// This choice with forces in every way, or in those that long chains are tried with: each takes them as long as all the rest of a
+    /// check.
+    pub fn with_forces(self, all: bool) -> impl Iterator<Item = Self> {
+        let ways = [(false, false), (true, false), (true, true)].into_iter().take(if all { 3 } else { 2 });
+        ways.map(move |(forces_in_ground, masses_inboard)| Self { forces_in_ground, masses_inboard, ..self })
+    }
+
     const fn new(accelerations_in_ground: bool, forces_in_ground: bool, masses_inboard: bool) -> Self {
         Self { accelerations_in_ground, forces_in_ground, masses_inboard, screws_outboard: false }
     }
