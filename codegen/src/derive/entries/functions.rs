@@ -1,36 +1,26 @@
-//! The blocks of every entry point.
+//! The blocks of every entry point but the equations of motion.
 //! In: the deriver's symbols, link motion. Out: [`Function`]s in the order of [`Entry::ALL`].
 
 use linkwear_runtime::{Channel, Entry, RowInfo, SWITCH};
-use rustc_hash::FxHashSet;
 
 use super::deriver::{Deriver, Given, Instant};
 use super::observe::Channels;
 use super::row_axes::MOST_TO_COMPARE;
 use crate::derive::closure::{CutRows, cut_rows};
 use crate::derive::contacts::contact_motion;
-use crate::derive::dynamics::{all_bias_forces, kinetic_energy, weight_energy};
+use crate::derive::dynamics::{kinetic_energy, weight_energy};
 use crate::derive::forward::{Forward, Problem};
 use crate::derive::kept_rows::kept_rows;
 use crate::derive::link_mass::LinkMass;
 use crate::derive::linkage::Freedom;
-use crate::derive::mass_matrix::mass_matrix;
 use crate::derive::moving::Known;
 use crate::derive::orientation::{quaternion_product, rotation_of_quaternion};
 use crate::derive::relative_motion::Sums;
 use crate::derive::shortest_way::{Shortest, forward};
 use crate::derive::solve::Solution;
 use crate::derive::start::{StartValues, start_values};
-use crate::derive::turned::Axes;
 use crate::derive::{Block, Function};
-use crate::expr::{Expr, ExprId, Vec3};
-
-/// Entries of M that are not zero by structure: an open chain of a hundred hinges has as many.
-const MOST_OF_MASS: usize = 5_000;
-
-/// What stands in the place of M.
-const MASS_LEFT_OUT: &str =
-    "No masses: of mechanisms as long as this one M is left out, and zeros stand in its place.";
+use crate::expr::{Expr, Vec3};
 
 pub(super) fn function(entry: Entry, doc: &str, inputs: Vec<Block>, outputs: Vec<Block>) -> Function {
     Function { name: entry.name().to_owned(), doc: doc.to_owned(), inputs, outputs, goes_on: false }
@@ -48,7 +38,7 @@ pub(super) struct StateRates<'g> {
 }
 
 impl<'g> Deriver<'g> {
-    fn base_inputs(&self) -> Vec<Block> {
+    pub(super) fn base_inputs(&self) -> Vec<Block> {
         let Given { tunable, inputs } = &self.given;
         let mut blocks =
             vec![Block::vector("parameters", tunable.iter().copied()).doc("Tunable parameters, SI.")];
@@ -77,7 +67,7 @@ impl<'g> Deriver<'g> {
         Block::vector("drive", self.drive.iter().copied()).doc("Drive forces from forward_dynamics.")
     }
 
-    fn contact_input(&self) -> Block {
+    pub(super) fn contact_input(&self) -> Block {
         let wrenches = self.contacts.iter().flat_map(|contact| [contact.force.0, contact.moment.0].concat());
         Block::vector("contact", wrenches)
             .doc("Per joint with clearance: force on the journal and moment about its centre, bearing frame.")
@@ -109,7 +99,7 @@ impl<'g> Deriver<'g> {
 
     /// Whether several ways to the same values are compared. Of longer chains one alone is derived: the others take as long as
     /// all the rest of a check.
-    fn is_short(&self) -> bool {
+    pub(super) fn is_short(&self) -> bool {
         self.compares && self.partition.free.len() + self.keep.len() <= MOST_TO_COMPARE
     }
 
@@ -315,124 +305,6 @@ impl<'g> Deriver<'g> {
         let doc = "How the journals of joints with clearance lie and move in their bearings.";
         function(Entry::Contacts, doc, self.state_inputs([]), vec![outputs])
     }
-
-    /// Whether M is left out: the size of most long mechanisms would be that of a matrix that no run asks for, but near singular
-    /// positions.
-    fn mass_is_left_out(&self) -> bool {
-        let linkage = self.geometry.linkage;
-        let held =
-            |at| linkage.path(Some(at)).map(|link| linkage.links[link].freedom.speeds()).sum::<usize>();
-        let links = linkage.links.iter().enumerate();
-        let entries: usize = links.map(|(at, link)| link.freedom.speeds() * held(at)).sum();
-        entries > MOST_OF_MASS && !self.whole_equations
-    }
-
-    /// `closed`: whether rows are taken with their biases of closed states, as the forward dynamics takes them.
-    pub(super) fn equations_of_motion(
-        &self,
-        (dynamic, masses): (&Instant<'g>, &[LinkMass<'g>]),
-        closed: bool,
-    ) -> Function {
-        let g = self.geometry.g;
-        let n = self.v_all.len();
-        let own = self.own.len();
-        let released = if self.drivers.is_empty() {
-            None
-        } else {
-            Some(self.instant([self.q_all.clone(), self.v_all.clone(), vec![g.zero(); n]]))
-        };
-        let instant = released.as_ref().unwrap_or(dynamic);
-        let motion = &instant.state.motion;
-        g.begin_section("mass matrix by composite bodies");
-        let [links, ground] = [Axes::ALL[0], Axes::ALL[2]];
-        let axes = if self.is_short() { vec![links, ground, Axes::BY_SCREWS] } else { vec![links] };
-        let matrices = axes.into_iter().map(|axes| {
-            let matrix = mass_matrix(&motion.poses, masses, axes);
-            let entries: Vec<Expr<'g>> =
-                matrix.iter().flatten().copied().filter(|entry| !entry.is_zero()).collect();
-            (matrix, entries)
-        });
-        let left_out = self.mass_is_left_out();
-        let matrices: Vec<_> = match left_out {
-            true => vec![(vec![vec![g.zero(); n]; n], Vec::new())],
-            false => matrices.collect(),
-        };
-        g.begin_section("loop Jacobian");
-        // Dropped rows too: they stand in where the kept ones happen to lose rank.
-        let all = vec![true; self.keep.len()];
-        let forces = std::cell::OnceCell::new();
-        let by = |cuts: &[CutRows<'g>], counts: bool| {
-            let rows: Vec<_> = kept_rows(motion, (cuts, &instant.couplings), &all)
-                .into_iter()
-                .map(|kept| (kept.row.residual, kept.jacobian, -kept.row.bias.of(closed)))
-                .collect();
-            let of_rows =
-                rows.iter().flat_map(|(phi, jacobian, gamma)| jacobian.iter().copied().chain([*phi, *gamma]));
-            // Zeros, of which there are as many as speeds times rows, take no operations.
-            let of_rows: Vec<Expr<'g>> = of_rows.filter(|entry| !entry.is_zero()).collect();
-            // The same for all rows, which alone decide which of them are shortest.
-            let axes = if self.compares { Axes::choices(self.is_short()) } else { &[links] };
-            let screws: &[Axes] = if self.is_short() { &[Axes::BY_SCREWS] } else { &[] };
-            let forces = forces.get_or_init(|| {
-                each_once(all_bias_forces(motion, masses, &instant.loads, &[axes, screws].concat()))
-            });
-            let both = matrices.iter().flat_map(|mass| forces.iter().map(move |h| (mass, h)));
-            let counts = counts || matrices.len() * forces.len() > 1;
-            let counted = both.map(|((mass, entries), h)| {
-                let all = entries.iter().chain(&of_rows).chain(h).copied();
-                (if counts { g.operations(all) } else { 0 }, mass, h)
-            });
-            let shortest = counted.min_by_key(|(operations, ..)| *operations);
-            let (operations, mass, h) = shortest
-                .map(|(operations, mass, h)| (operations, mass.clone(), h.clone()))
-                .unwrap_or_default();
-            (operations, (rows, mass, h))
-        };
-        let (rows, mass, h) =
-            instant.by_shorter_rows(&instant.cuts, (false, self.is_short()), self.compares, by);
-        let beside = || vec![g.zero(); own];
-        let jacobian = rows.iter().flat_map(|(_, jacobian, _)| jacobian.iter().copied().chain(beside()));
-        // Each state of the file's own by itself: one times its rate is its rate.
-        let mass_of_own = (0..own).flat_map(|i| (i..own).map(move |j| g.number(f64::from(u8::from(i == j)))));
-        let upper = (0..n).flat_map(|i| mass[i][i..].iter().copied().chain(beside()).collect::<Vec<_>>());
-        let own_rates = instant.own_rates.iter().map(|rate| -*rate);
-        let outputs = vec![
-            Block::vector("mass", upper.chain(mass_of_own))
-                .doc(if left_out {
-                    MASS_LEFT_OUT
-                } else {
-                    "Upper triangle of M, row by row [kg m², kg m, kg]."
-                })
-                .cites("[CS (6)]"),
-            Block::vector("h", h.into_iter().chain(own_rates))
-                .doc("Left side besides M v̇: inertia, weight, springs, damping.")
-                .cites("[CS (6)]"),
-            Block::vector("phi", rows.iter().map(|(phi, ..)| *phi))
-                .doc("Position residuals of all rows [rad, m].")
-                .cites("[CS (3)]"),
-            Block::matrix("phi_q", (rows.len(), n + own), jacobian)
-                .doc("Jacobian of all rows by all speeds.")
-                .cites("[CS (3)]"),
-            Block::vector("gamma", rows.iter().map(|(.., gamma)| *gamma))
-                .doc("Right side of phi_q v̇ = gamma; of closed states where something drives.")
-                .cites("[CS (6)]"),
-        ];
-        let mut inputs = self.base_inputs();
-        let (q, v) = (instant.state.q.iter().copied(), instant.state.v.iter().copied());
-        let (q, v) = (q.chain(self.own_integrals()), v.chain(self.own_values()));
-        inputs.push(Block::vector("q", q).doc("All coordinates, driven ones included."));
-        inputs.push(Block::vector("v", v).doc("All speeds, driven ones included."));
-        inputs.push(self.contact_input());
-        let doc = "M v̇ + h = Q_drive + phi_qᵀ lambda, phi_q v̇ = gamma, with the drivers kept free.";
-        function(Entry::EquationsOfMotion, doc, inputs, outputs)
-    }
-}
-
-/// Without lists that are there before.
-fn each_once<'g>(lists: Vec<Vec<Expr<'g>>>) -> Vec<Vec<Expr<'g>>> {
-    let mut known = FxHashSet::default();
-    let ids = |list: &Vec<Expr<'g>>| -> Vec<ExprId> { list.iter().map(|entry| entry.id()).collect() };
-    lists.into_iter().filter(|list| known.insert(ids(list))).collect()
 }
 
 /// Accelerations with the rates of the file's own states behind them, multipliers, drive forces, pivots.

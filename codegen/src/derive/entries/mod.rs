@@ -5,6 +5,7 @@
 mod deriver;
 mod description;
 mod element_columns;
+mod equations_of_motion;
 mod functions;
 mod joint_forces;
 mod names;
