@@ -4,9 +4,11 @@
 
 mod answers;
 mod closed;
+mod closure;
 mod derivative;
 mod held;
 mod inside;
+mod parameters;
 mod questions;
 mod sampled;
 mod stages;
@@ -19,10 +21,7 @@ use crate::clearance_joint::{Clearances, ContactState};
 use crate::description::Description;
 use crate::error::SetupError;
 use crate::flat_laws::in_words;
-use crate::guide::Guide;
 use crate::layout::Layout;
-use crate::row_scales::{note_lengths, scale_rows};
-use crate::signals::Signals;
 use crate::system::{CONTACT_MOTION, Entry, STATES, Sizes, System};
 use derivative::Derivative;
 use questions::Questions;
@@ -53,21 +52,6 @@ pub struct Evaluator<'a> {
     contacts_known_at: Option<u64>,
     derivative: Derivative<'a>,
     questions: Questions<'a>,
-}
-
-/// Whether values are as many as a mechanism has parameters, and finite.
-fn check_parameters(description: &Description, parameters: &[f64]) -> Result<(), SetupError> {
-    let (expected, found) = (description.parameters.len(), parameters.len());
-    if expected != found {
-        return Err(SetupError::Length { what: "parameters", expected, found });
-    }
-    match parameters.iter().position(|value| !value.is_finite()) {
-        Some(at) => {
-            let name = description.parameters[at].name.to_string();
-            Err(SetupError::Parameter { name, value: parameters[at] })
-        }
-        None => Ok(()),
-    }
 }
 
 impl<'a> Evaluator<'a> {
@@ -102,7 +86,7 @@ impl<'a> Evaluator<'a> {
         let rates = description.channels.iter().rposition(|channel| channel.wraps).map_or(0, |last| last + 2);
         same("channels with the rates of angles", rates.max(sizes.channels), sizes.channels)?;
         same("described joints with clearance", sizes.contacts, description.contacts.len())?;
-        check_parameters(description, parameters)?;
+        Self::check_parameters(description, parameters)?;
         let clearances = Clearances::of(description)?;
         // Segments of missions and studies change laws, not equations.
         let inside = system.laws_inside().filter(|code| code.laws() == in_words(clearances.joints()));
@@ -143,70 +127,6 @@ impl<'a> Evaluator<'a> {
     /// For every kept row, its row in the description.
     pub fn kept(&self) -> &[usize] {
         &self.kept
-    }
-
-    /// Evaluates with other values of the parameters from here on.
-    ///
-    /// # Errors
-    /// If they are not finite, or not as many as the mechanism has; nothing has changed then.
-    pub fn set_parameters(&mut self, parameters: &[f64]) -> Result<(), SetupError> {
-        check_parameters(self.description, parameters)?;
-        self.questions.set_parameters(parameters);
-        self.derivative.set_parameters(parameters);
-        self.forget_contacts();
-        Ok(())
-    }
-
-    /// Values of the parameters.
-    pub(crate) fn parameters(&self) -> &[f64] {
-        self.questions.parameters()
-    }
-
-    /// Connects the inputs to signals; before that they have the values among the parameters.
-    pub fn connect(&mut self, signals: &'a dyn Signals) {
-        self.questions.connect(signals);
-        self.derivative.forget();
-    }
-
-    /// Where the inputs that drives follow go: to be led on, from their [`Self::inputs`].
-    pub(crate) fn guide(&self) -> &Guide {
-        &self.questions.guide
-    }
-
-    /// Leads the inputs that drives follow from here on.
-    pub(crate) fn set_guide(&mut self, guide: &Guide) {
-        self.questions.guide.clone_from(guide);
-        self.derivative.forget();
-        self.forget_contacts();
-    }
-
-    /// The inputs among values of all parameters.
-    ///
-    /// # Errors
-    /// As [`Self::set_parameters`].
-    pub(crate) fn inputs_among<'p>(&self, parameters: &'p [f64]) -> Result<&'p [f64], SetupError> {
-        check_parameters(self.description, parameters)?;
-        Ok(&parameters[self.questions.inputs.clone()])
-    }
-
-    /// Where inputs begin among the parameters.
-    pub(crate) fn first_input(&self) -> usize {
-        self.questions.inputs.start
-    }
-
-    /// Values of all inputs at a time.
-    pub(crate) fn inputs(&mut self, t: f64) -> &[f64] {
-        self.questions.inputs_at(t)
-    }
-
-    /// Passes all numbers of the guide, to be read or written: before an answer is asked for again.
-    pub(crate) fn visit_guide(&mut self, visit: &mut dyn FnMut(&mut f64)) {
-        self.questions.guide.visit_memory(visit);
-    }
-
-    /// What the inputs are connected to.
-    pub(crate) fn signals(&self) -> Option<&'a dyn Signals> {
-        self.questions.signals()
     }
 
     /// Position, speed and acceleration of every driver, driver by driver.
@@ -346,56 +266,6 @@ impl<'a> Evaluator<'a> {
     /// unless other forces were put in their place.
     pub(crate) fn last_derivative(&self) -> Option<(&[f64], [f64; 2])> {
         self.derivative.rates()
-    }
-
-    /// Residuals of the loops and their Jacobian.
-    pub fn closure(&mut self, t: f64, q: &[f64], v: &[f64]) -> Closure<'_> {
-        self.questions.ask(Entry::Closure, t, &[q, v]);
-        self.note_row_lengths();
-        self.last_closure()
-    }
-
-    /// Factors that make the kept rows of the Jacobian at most about as long as one, so that metres and
-    /// radians count alike when rank is judged. They follow the longest each row has been: a row that
-    /// vanishes at a singular position must not be blown up.
-    pub fn row_scales(&self) -> &[f64] {
-        &self.row_scales
-    }
-
-    /// Passes all numbers that an answer can depend on besides its question, to be read or written.
-    pub(crate) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
-        self.row_lengths.iter_mut().chain(&mut self.row_scales).for_each(visit);
-    }
-
-    /// Longest length that each kept row of the Jacobian has had.
-    pub(crate) fn row_lengths(&self) -> &[f64] {
-        &self.row_lengths
-    }
-
-    /// Takes over the Jacobian of a state that was evaluated elsewhere.
-    pub(crate) fn take_over_rows(&mut self, jacobian: impl Iterator<Item = f64>) {
-        let first = self.sizes.all_rows + self.sizes.rows;
-        let places = &mut self.questions.last_mut(Entry::Closure)[first..];
-        places.iter_mut().zip(jacobian).for_each(|(place, value)| *place = value);
-        self.note_row_lengths();
-    }
-
-    fn note_row_lengths(&mut self) {
-        let n = self.sizes.speeds;
-        let first = self.sizes.all_rows + self.sizes.rows;
-        let jacobian = &self.questions.last(Entry::Closure)[first..];
-        if note_lengths(&mut self.row_lengths, jacobian, n) {
-            let rows = &self.description.rows;
-            let kinds = self.kept.iter().enumerate().map(|(kept, row)| (kept, rows[*row].angular));
-            scale_rows(&mut self.row_scales, &self.row_lengths, kinds);
-        }
-    }
-
-    /// The last answer of [`Self::closure`].
-    pub fn last_closure(&self) -> Closure<'_> {
-        let (positions, rest) = self.questions.last(Entry::Closure).split_at(self.sizes.all_rows);
-        let (speeds, jacobian) = rest.split_at(self.sizes.rows);
-        Closure { positions, speeds, jacobian }
     }
 
     /// Kinetic and potential energy [J].

@@ -1,0 +1,53 @@
+//! The end of a run. In: what was recorded and added up. Out: a [`Run`], with what there is to warn of.
+
+use super::Sampler;
+use crate::error::RunError;
+use crate::ledger::Ledger;
+use crate::simulate::extremes::Collector;
+use crate::simulate::guard::is_doubtful;
+use crate::simulate::motion::ConstrainedMotion;
+use crate::simulate::run::{Run, Statistics};
+use crate::simulate::warning::{self, RunWarning};
+
+impl Sampler<'_> {
+    /// Gives the recorded samples away; `limits`: see [`warning::step_limits`].
+    pub(in crate::simulate) fn finish(
+        mut self,
+        motion: &ConstrainedMotion<'_>,
+        limits: Option<(f64, f64)>,
+        stopped: Option<RunError>,
+    ) -> Run {
+        self.statistics.evaluations += motion.dynamics.evaluations;
+        self.statistics.rank_revealing_solves = motion.dynamics.rank_revealing_solves;
+        self.statistics.projections = motion.projections;
+        let Ledger { balance, open, .. } = &self.ledger;
+        (self.statistics.energy_error_J, self.statistics.energy_throughput_J) =
+            (balance.error, balance.throughput);
+        [self.statistics.max_loop_error_m, self.statistics.max_loop_error_rad] = *open;
+        if let (Some(looks), Some(extremes)) = (&mut self.looks, &mut self.extremes) {
+            looks.finish(extremes);
+        }
+        let (extremes, peaks) = self.extremes.take().map(Collector::finish).unwrap_or_default();
+        let mut run = Run {
+            extremes,
+            peaks,
+            channels: self.columns.channels,
+            times: self.times,
+            rows: self.rows,
+            statistics: self.statistics,
+            stopped,
+            ..Run::default()
+        };
+        if let Some(follower) = self.follower {
+            run.warnings = follower.warnings(&motion.dynamics.evaluator, &self.ledger, limits);
+            run.turns = follower.measures;
+        }
+        run.warnings.extend(self.unbounded.warnings(&run.channels));
+        run.warnings.extend(warning::rounded_angle(motion.angles(&self.reached.1)));
+        if run.stopped.is_none() && is_doubtful(&self.ledger) {
+            let Statistics { energy_error_J: error, energy_throughput_J: throughput, .. } = run.statistics;
+            run.warnings.push(RunWarning::EnergyOff { error, throughput });
+        }
+        run
+    }
+}
