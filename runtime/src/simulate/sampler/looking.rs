@@ -21,6 +21,7 @@ const LOOKS_AT_VIBRATION: f64 = 4.0;
 const LOOKS_ALONE: usize = 500;
 /// Looks within one step, at most.
 const MOST_LOOKS: f64 = 1000.0;
+
 impl<'a> Sampler<'a> {
     /// Collects the extremes of all columns along the way.
     pub(in crate::simulate) fn collect_extremes(&mut self, motion: &ConstrainedMotion<'a>) {
