@@ -150,7 +150,7 @@ impl<'g> Search<'_, 'g> {
         let mut shorter = self.has_wrenches(&best.way) && self.offer(best, by_wrenches);
         let axes = best.way.axes.with_other_accelerations();
         shorter |= self.offer(best, Way { axes, ..best.way });
-        for axes in best.way.axes.with_forces(self.is_short()) {
+        for axes in best.way.axes.with_these_accelerations(self.is_short()) {
             shorter |= self.offer(best, Way { axes, ..best.way });
         }
         if shorter {
@@ -306,7 +306,7 @@ pub fn forward<'g>(
         search.offer_for_both(&mut best, Way { asked: Asked::Moments, ..way });
     }
     let way = best.way;
-    if best.forward.slid && speeds + pattern.len() <= MOST_TO_ORDER {
+    if best.forward.slid && search.is_short() {
         search.offer(&mut best, Way { slid: false, ..way });
     }
     // What follows changes little of what else a way takes: it is looked for on the best one alone.
@@ -319,7 +319,7 @@ pub fn forward<'g>(
         search.in_order(&mut best, &constant);
     });
     // Of few unknowns other orders of elimination do as well, which are chosen from more forms.
-    if speeds + pattern.len() > MOST_TO_ORDER
+    if !search.is_short()
         && let Some(solved) = gone_by_links.unwrap_or_else(by_links)
     {
         best.take(problem, solved);

@@ -41,11 +41,10 @@ impl Axes {
         Self { accelerations_in_ground: !self.accelerations_in_ground, ..self }
     }
 
-    /// This choice with forces in every way, or in those that long chains are tried with: each takes them as long as all the rest of a
-    /// check.
-    pub fn with_forces(self, all: bool) -> impl Iterator<Item = Self> {
-        let ways = [(false, false), (true, false), (true, true)].into_iter().take(if all { 3 } else { 2 });
-        ways.map(move |(forces_in_ground, masses_inboard)| Self { forces_in_ground, masses_inboard, ..self })
+    /// The [`Self::choices`] with accelerations along the axes of this one.
+    pub fn with_these_accelerations(self, all: bool) -> impl Iterator<Item = Self> {
+        let is_alike = move |other: &Self| other.accelerations_in_ground == self.accelerations_in_ground;
+        Self::choices(all).iter().copied().filter(is_alike)
     }
 
     const fn new(accelerations_in_ground: bool, forces_in_ground: bool, masses_inboard: bool) -> Self {

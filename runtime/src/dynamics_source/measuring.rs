@@ -69,13 +69,12 @@ impl Measuring {
     /// Takes a turn; whether it was the last one.
     pub fn take(&mut self, turn: TurnMeasures, wearing: &Wearing<'_>) -> bool {
         self.done += 1;
-        if let (Stage::Settles, None, Some(last)) = (self.stage, self.settle, &self.last)
-            && self.settling.has_settled([wearing.differs(last, &turn)].into_iter())
-        {
-            self.stage = Stage::IsSettled;
-        }
-        if self.stage == Stage::Settles && self.settle.is_none() && self.done >= MOST_TO_SETTLE {
-            self.stage = Stage::NeverSettles;
+        if let (Stage::Settles, None, Some(last)) = (self.stage, self.settle, &self.last) {
+            if self.settling.has_settled([wearing.differs(last, &turn)].into_iter()) {
+                self.stage = Stage::IsSettled;
+            } else if self.done >= MOST_TO_SETTLE {
+                self.stage = Stage::NeverSettles;
+            }
         }
         if self.stage != Stage::Settles {
             self.turns.push(turn);

@@ -59,10 +59,10 @@ impl<'g> Deriver<'g> {
         };
         let (rows, mass, h) =
             instant.by_shorter_rows(&instant.cuts, (false, self.is_short()), self.compares, by);
-        let outputs = self.equation_blocks(&rows, &mass, h, &instant.own_rates);
-        let [mass, others @ ..] = outputs;
-        let mass = if left_out { mass.doc(MASS_LEFT_OUT) } else { mass };
-        let outputs = [mass].into_iter().chain(others).collect();
+        let mut outputs = self.equation_blocks(&rows, &mass, h, &instant.own_rates);
+        if left_out {
+            MASS_LEFT_OUT.clone_into(&mut outputs[0].doc);
+        }
         let (q, v) = (instant.state.q.iter().copied(), instant.state.v.iter().copied());
         let (q, v) = (q.chain(self.own_integrals()), v.chain(self.own_values()));
         let mut inputs = self.base_inputs();
@@ -70,7 +70,7 @@ impl<'g> Deriver<'g> {
         inputs.push(Block::vector("v", v).doc("All speeds, driven ones included."));
         inputs.push(self.contact_input());
         let doc = "M v̇ + h = Q_drive + phi_qᵀ lambda, phi_q v̇ = gamma, with the drivers kept free.";
-        function(Entry::EquationsOfMotion, doc, inputs, outputs)
+        function(Entry::EquationsOfMotion, doc, inputs, outputs.into())
     }
 
     /// Whether M is left out: the size of most long mechanisms would be that of a matrix that no run asks for, but near singular
