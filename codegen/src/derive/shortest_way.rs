@@ -54,11 +54,16 @@ struct Best<'s, 'g> {
     way: Way<'s, 'g>,
     /// The same of accelerations alone, whatever all else takes.
     alone: (usize, Solution<'g>),
-    /// Ways that were gone already, of the problem at hand.
-    gone: Vec<Way<'s, 'g>>,
+    /// Ways that were gone already, of the problem at hand, with their operations.
+    gone: Vec<(Way<'s, 'g>, (usize, usize))>,
 }
 
-impl<'g> Best<'_, 'g> {
+impl<'s, 'g> Best<'s, 'g> {
+    /// Operations of a way that was gone already, of the problem at hand.
+    fn operations_of(&self, way: &Way<'s, 'g>) -> Option<(usize, usize)> {
+        self.gone.iter().find(|(gone, _)| gone.is(way)).map(|(_, operations)| *operations)
+    }
+
     /// Takes over what is shorter of a solution that goes no [`Way`], of this many operations.
     fn take(&mut self, problem: &Problem<'_, 'g>, (operations, forward): (usize, Forward<'g>)) {
         let g = problem.motion.poses.geometry.g;
@@ -99,7 +104,7 @@ impl<'g> Search<'_, 'g> {
         let alone = known.operations(g, &forward.solution.of_accelerations());
         let operations = (known.operations(g, &forward.all()), alone);
         let alone = (alone, forward.solution.clone());
-        Best { operations, forward, way, alone, gone: vec![way] }
+        Best { operations, forward, way, alone, gone: vec![(way, operations)] }
     }
 
     /// Whether the way is shorter than the best. One that was gone already is not.
@@ -119,11 +124,11 @@ impl<'g> Search<'_, 'g> {
         way: Way<'s, 'g>,
         is_shorter: impl Fn((usize, usize), (usize, usize)) -> bool,
     ) -> bool {
-        if best.gone.iter().any(|gone| gone.is(&way)) {
+        if best.operations_of(&way).is_some() {
             return false;
         }
-        best.gone.push(way);
         let next = self.first(way);
+        best.gone.push((way, next.operations));
         if next.alone.0 < best.alone.0 {
             best.alone = next.alone;
         }
@@ -148,26 +153,26 @@ impl<'g> Search<'_, 'g> {
     fn along_axes<'s>(&self, best: &mut Best<'s, 'g>) {
         let by_wrenches = Way { rows_moved: true, rows_push: true, ..best.way };
         let mut shorter = self.has_wrenches(&best.way) && self.offer(best, by_wrenches);
-        let axes = best.way.axes.with_other_accelerations();
-        shorter |= self.offer(best, Way { axes, ..best.way });
-        for axes in best.way.axes.with_these_accelerations(self.is_short()) {
-            shorter |= self.offer(best, Way { axes, ..best.way });
-        }
+        shorter |= self.offer_axes(best);
         if shorter {
             self.by_wrenches(best);
         }
     }
 
-    /// The same of rows that are made in another way than those of the best so far: all axes.
-    fn along_all_axes<'s>(&self, best: &mut Best<'s, 'g>) {
-        let (way, short) = (best.way, self.is_short());
+    /// Other axes of accelerations, then other ones of forces along the better of these.
+    fn offer_axes<'s>(&self, best: &mut Best<'s, 'g>) -> bool {
+        let way = best.way;
         let mut shorter = false;
-        for axes in Axes::choices(short).iter().copied().filter(|axes| short || *axes != way.axes) {
+        let [links, ground] = [false, true].map(|accelerations_in_ground| {
+            let way = Way { axes: Axes { accelerations_in_ground, ..Axes::default() }, ..way };
+            shorter |= self.offer(best, way);
+            (best.operations_of(&way), way.axes)
+        });
+        let (_, axes) = std::cmp::min_by_key(links, ground, |(operations, _)| *operations);
+        for axes in axes.with_these_accelerations(self.is_short()) {
             shorter |= self.offer(best, Way { axes, ..way });
         }
-        if shorter {
-            self.by_wrenches(best);
-        }
+        shorter
     }
 
     /// The other ways to take rows.
@@ -285,7 +290,7 @@ pub fn forward<'g>(
         kinds.push(&shapes[..]);
     }
     for shapes in kinds {
-        if !shapes.is_empty() {
+        if !shapes.is_empty() && best.way.rows_first.is_none() {
             search.offer(&mut best, Way { shapes, ..plain });
         }
         for plan in std::iter::once(&plan).chain(&larger).chain(&without_own) {
@@ -294,8 +299,10 @@ pub fn forward<'g>(
                 search.offer(&mut best, first);
             }
             if !local.is_empty() {
-                for again in [false, true] {
-                    search.offer(&mut best, Way { local: &local, again, ..first });
+                let chosen = [best.way.again];
+                let either = if best.way.local.is_empty() { &[false, true][..] } else { &chosen };
+                for again in either {
+                    search.offer(&mut best, Way { local: &local, again: *again, ..first });
                 }
             }
         }
@@ -315,7 +322,7 @@ pub fn forward<'g>(
     others(&mut |problem| {
         let search = Search { problem };
         best.gone.clear();
-        search.along_all_axes(&mut best);
+        search.offer_axes(&mut best);
         search.in_order(&mut best, &constant);
     });
     // Of few unknowns other orders of elimination do as well, which are chosen from more forms.

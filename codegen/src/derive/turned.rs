@@ -36,11 +36,6 @@ impl Axes {
         if all { &Self::ALL } else { &Self::ALL[..4] }
     }
 
-    /// This choice with accelerations along the other axes.
-    pub const fn with_other_accelerations(self) -> Self {
-        Self { accelerations_in_ground: !self.accelerations_in_ground, ..self }
-    }
-
     /// The [`Self::choices`] with accelerations along the axes of this one.
     pub fn with_these_accelerations(self, all: bool) -> impl Iterator<Item = Self> {
         let is_alike = move |other: &Self| other.accelerations_in_ground == self.accelerations_in_ground;
