@@ -1,5 +1,5 @@
-//! The mechanisms that the study runs: the shipped case study and its variants. In: shipped mechanisms, their
-//! files. Out: mechanisms ready to run, and their turns. Never knows lives, figures or what is done with a run.
+//! The mechanisms that the study runs: the shipped case study and its variants. In: files of shipped mechanisms. Out:
+//! mechanisms ready to run, and their turns. Never knows lives, figures or what is done with a run.
 //!
 //! Variants are made as any user makes them: by the options of the generator and by editing the text of a file.
 
@@ -13,6 +13,8 @@ use super::workers::Workers;
 
 /// The file of the case study.
 const TEXT: &str = include_str!("../../mechanisms/rssr.toml");
+/// The file of the case study with ideal joints.
+const IDEAL: &str = include_str!("../../mechanisms/rssr_flexible.toml");
 /// The joint that wears.
 pub(super) const JOINT: &str = "R1";
 
@@ -40,33 +42,21 @@ fn source(text: String) -> SourceFile {
 
 impl Model {
     pub fn mechanism(self) -> Result<Mechanism, StudyError> {
-        let shipped = |name: &str| {
-            let missing = || StudyError::Missing { kind: "shipped mechanism", name: name.into() };
-            Mechanism::shipped(name).ok_or_else(missing)
-        };
-        let interpreted = |text: String, options: &Options| {
-            Ok(Mechanism::compile(&source(text), options, Backend::Interpreter)?)
+        let ready = |text: &str, options: &Options| {
+            Ok(Mechanism::compile(&source(text.to_owned()), options, Backend::Auto)?)
         };
         match self {
-            Self::Flexible => shipped("rssr"),
-            Self::Ideal => shipped("rssr_flexible"),
-            Self::Rigid => interpreted(TEXT.to_owned(), &Options { rigid: true, ..Options::default() }),
+            Self::Flexible => ready(TEXT, &Options::default()),
+            Self::Ideal => ready(IDEAL, &Options::default()),
+            Self::Rigid => ready(TEXT, &Options { rigid: true, ..Options::default() }),
             Self::WithFrequencies(frequencies) => {
                 let expected = "damping = \"zeta\" }";
                 let twice: Vec<String> = frequencies.map(|f| format!("\"{f} Hz\", \"{f} Hz\"")).to_vec();
                 let given = format!("damping = \"zeta\", frequencies = [{}] }}", twice.join(", "));
                 let text = TEXT.replace(expected, &given);
                 let missing = StudyError::Missing { kind: "text", name: expected.into() };
-                if text == TEXT { Err(missing) } else { interpreted(text, &Options::default()) }
+                if text == TEXT { Err(missing) } else { ready(&text, &Options::default()) }
             }
-        }
-    }
-
-    /// Cost of a turn, roughly, in turns of the compiled flexible mechanism: what progress is counted in.
-    pub fn cost(self) -> f64 {
-        match self {
-            Self::Flexible | Self::Ideal => 1.0,
-            Self::Rigid | Self::WithFrequencies(_) => 4.0,
         }
     }
 
@@ -84,7 +74,7 @@ impl Model {
             settle: Span::Turns(f64::from(settle)),
             ..Settings::new(Integrator::Rk4 { step }, Span::Turns(1.0), samples)
         };
-        let run = workers.piece(self.cost() * f64::from(settle + 1), |watch| {
+        let run = workers.piece(f64::from(settle + 1), |watch| {
             simulate(&*system, &mechanism.description, &mechanism.parameters, &settings, watch)
         })?;
         match run.stopped {

@@ -88,7 +88,7 @@ impl Survey {
     pub fn work(&self) -> f64 {
         let RevolutionSettings { integrator, settle, average } = self.settings;
         let steps = if let Integrator::Rk4 { step } = integrator { STEP / step } else { 1.0 };
-        self.model.cost() * steps * f64::from(settle.unwrap_or(1) + average) * self.points as f64
+        steps * f64::from(settle.unwrap_or(1) + average) * self.points as f64
     }
 
     pub fn measure(&self, workers: &Workers<'_>) -> Result<Measured, StudyError> {
