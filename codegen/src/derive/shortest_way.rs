@@ -289,6 +289,7 @@ pub fn forward<'g>(
     if !shapes.is_empty() {
         kinds.push(&shapes[..]);
     }
+    // What lost to another way without shape functions is not tried with them.
     for shapes in kinds {
         if !shapes.is_empty() && best.way.rows_first.is_none() {
             search.offer(&mut best, Way { shapes, ..plain });
