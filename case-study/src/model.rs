@@ -33,29 +33,29 @@ pub(super) enum Model {
 
 /// The case study, understood by the generator.
 pub(super) fn compiled() -> Result<Compiled, StudyError> {
-    Ok(compile(&source(TEXT.to_owned()), &Options::default()).map_err(LoadError::Mechanism)?)
+    Ok(compile(&source("rssr", TEXT), &Options::default()).map_err(LoadError::Mechanism)?)
 }
 
-fn source(text: String) -> SourceFile {
-    SourceFile { name: "mechanisms/rssr.toml".into(), text }
+/// The text of a shipped mechanism, or what was made of it.
+fn source(name: &str, text: &str) -> SourceFile {
+    SourceFile { name: format!("mechanisms/{name}.toml"), text: text.to_owned() }
 }
 
 impl Model {
     pub fn mechanism(self) -> Result<Mechanism, StudyError> {
-        let ready = |text: &str, options: &Options| {
-            Ok(Mechanism::compile(&source(text.to_owned()), options, Backend::Auto)?)
-        };
+        let ready =
+            |source: SourceFile, options: &Options| Ok(Mechanism::compile(&source, options, Backend::Auto)?);
         match self {
-            Self::Flexible => ready(TEXT, &Options::default()),
-            Self::Ideal => ready(IDEAL, &Options::default()),
-            Self::Rigid => ready(TEXT, &Options { rigid: true, ..Options::default() }),
+            Self::Flexible => ready(source("rssr", TEXT), &Options::default()),
+            Self::Ideal => ready(source("rssr_flexible", IDEAL), &Options::default()),
+            Self::Rigid => ready(source("rssr", TEXT), &Options { rigid: true, ..Options::default() }),
             Self::WithFrequencies(frequencies) => {
                 let expected = "damping = \"zeta\" }";
                 let twice: Vec<String> = frequencies.map(|f| format!("\"{f} Hz\", \"{f} Hz\"")).to_vec();
                 let given = format!("damping = \"zeta\", frequencies = [{}] }}", twice.join(", "));
                 let text = TEXT.replace(expected, &given);
                 let missing = StudyError::Missing { kind: "text", name: expected.into() };
-                if text == TEXT { Err(missing) } else { ready(&text, &Options::default()) }
+                if text == TEXT { Err(missing) } else { ready(source("rssr", &text), &Options::default()) }
             }
         }
     }

@@ -1,7 +1,10 @@
 //! Shared by the cross-stage tests: compile a shipped mechanism, run it, read columns by name.
 #![allow(dead_code, reason = "every test file uses its own part")]
 
+pub mod machine_code;
 pub mod random;
+
+pub use machine_code::system;
 
 use std::path::PathBuf;
 
@@ -9,7 +12,6 @@ use linkwear_codegen::backend::interp::Interpreted;
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
-use linkwear_native::Native;
 use linkwear_runtime::{
     Description, Entry, Integrator, Run, Scalar, Settings, Span, System, Watch, simulate,
 };
@@ -39,15 +41,6 @@ pub fn compile_source(source: &SourceFile, overrides: &[(&str, &str)], closure: 
     let overrides = overrides.iter().map(|(a, b)| ((*a).to_owned(), (*b).to_owned())).collect();
     compile(source, &Options { closure, overrides, ..Options::default() })
         .unwrap_or_else(|error| panic!("{error}"))
-}
-
-/// The equations as a user runs them: machine code, in the interpreter's bits (benchmarks/tests/bits.rs) and several times as fast. Where
-/// this processor has none, the interpreter.
-pub fn system(compiled: &Compiled) -> Box<dyn System<f64>> {
-    match Native::with_laws(compiled.tapes(), compiled.sizes(), compiled.description()) {
-        Ok(native) => Box::new(native),
-        Err(_) => Box::new(compiled.interpreter()),
-    }
 }
 
 /// Adaptive integration of a compiled mechanism.

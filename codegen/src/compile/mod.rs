@@ -109,6 +109,11 @@ fn understood(
         mechanism.freeze();
     }
     let mut topology = model::topology::spanning_tree(&mechanism).map_err(|errors| errors.located(source))?;
+    if let Some(other) = model::with_free_sections(&mechanism, &topology)
+        && derive::clearly_shorter(&mechanism, [&other, &topology])
+    {
+        topology = other;
+    }
     topology.rows_in_ground = derive::shorter_in_ground(&mechanism, &topology);
     topology.rows_off_balls = derive::shorter_off_balls(&mechanism, &topology);
     let mut findings = analyse(source, &mechanism, &topology)?;

@@ -74,7 +74,8 @@ mod wrench;
 
 pub use closure::row_count;
 pub use entries::{
-    Derived, Purpose, derive, equations_of_motion, shorter_in_ground, shorter_off_balls, splits_plane_rows,
+    Derived, Purpose, clearly_shorter, derive, equations_of_motion, shorter_in_ground, shorter_off_balls,
+    splits_plane_rows,
 };
 pub use equations::{Derivation, Equations};
 pub use linkage::{Freedom, Link, Linkage};

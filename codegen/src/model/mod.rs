@@ -16,6 +16,7 @@ mod coupling;
 mod dry_friction;
 mod force;
 mod formula;
+mod free_sections;
 mod joint_kind;
 mod joint_model;
 mod local_loops;
@@ -39,6 +40,7 @@ pub use coupling::{
 pub use dry_friction::DryFriction;
 pub use force::Force;
 pub use formula::{Formula, Function, Term};
+pub use free_sections::with_free_sections;
 pub use joint_kind::{AxisKeys, Direction, JOINT_KINDS, JointKind, Look, PlaceKey, Primitive};
 pub use joint_model::{Axis, JointModel};
 pub use mission::{Mission, Segment};

@@ -35,10 +35,7 @@ pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
         });
         (tree, _) = grown(mechanism, &classes, &carries);
     }
-    let carries = |joint: &JointId| tree.iter().any(|step: &TreeJoint| step.joint == *joint);
-    let cuts: Vec<JointId> =
-        (0..mechanism.joints.len()).map(JointId::new).filter(|joint| !carries(joint)).collect();
-    let topology = Topology { tree, cuts, rows_in_ground: false, rows_off_balls: false };
+    let topology = with_cuts(mechanism, tree);
     faults.extend(unreached(mechanism, &depths));
     if faults.is_empty() {
         faults.extend(driven_loops(mechanism, &topology));
@@ -48,6 +45,28 @@ pub fn spanning_tree(mechanism: &Mechanism) -> Result<Topology, Diagnostics> {
         faults.extend(starts_on_cuts(mechanism, &topology));
     }
     if faults.is_empty() { Ok(topology) } else { Err(Diagnostics::from_list(faults)) }
+}
+
+fn with_cuts(mechanism: &Mechanism, tree: Vec<TreeJoint>) -> Topology {
+    let carries = |joint: &JointId| tree.iter().any(|step: &TreeJoint| step.joint == *joint);
+    let cuts: Vec<JointId> =
+        (0..mechanism.joints.len()).map(JointId::new).filter(|joint| !carries(joint)).collect();
+    Topology { tree, cuts, rows_in_ground: false, rows_off_balls: false }
+}
+
+/// The tree of these joints; nothing if they reach not all bodies.
+pub(super) fn grown_by(mechanism: &Mechanism, carries: &[bool]) -> Option<Topology> {
+    let (tree, depths) = grown(mechanism, &classes(mechanism), carries);
+    depths.iter().all(Option::is_some).then(|| with_cuts(mechanism, tree))
+}
+
+/// By joint, whether nothing asks for its coordinates and nothing asks for its cut.
+pub(super) fn carries_at_will(mechanism: &Mechanism) -> Vec<bool> {
+    let unasked = |(joint, class): (&Joint, Class)| {
+        let (no_guide, plain, unstarted, _, unused) = class;
+        no_guide && plain && unstarted && unused && !must_cut(mechanism, joint)
+    };
+    mechanism.joints.iter().zip(classes(mechanism)).map(unasked).collect()
 }
 
 /// The tree that grows from the ground, and how far from it each body is, if it is reached.

@@ -1,10 +1,12 @@
 //! Mechanisms as text, compiled and run: what tests of elements begin with.
 #![allow(dead_code, reason = "every test file uses its own part")]
 
+#[path = "../../../tests/support/machine_code.rs"]
+mod machine_code;
+
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::source::SourceFile;
-use linkwear_native::Native;
-use linkwear_runtime::{Run, Settings, System, Watch, simulate};
+use linkwear_runtime::{Run, Settings, Watch, simulate};
 
 /// A file with its version and name put before the text.
 pub fn source(text: &str) -> SourceFile {
@@ -26,12 +28,7 @@ pub fn refused(text: &str) -> String {
 /// A run that goes on to its end.
 pub fn run_with(text: &str, settings: &Settings) -> Run {
     let compiled = compiled(text);
-    // In the interpreter's bits (benchmarks/tests/bits.rs), and several times as fast.
-    let native = Native::with_laws(compiled.tapes(), compiled.sizes(), compiled.description());
-    let system: Box<dyn System<f64>> = match native {
-        Ok(native) => Box::new(native),
-        Err(_) => Box::new(compiled.interpreter()),
-    };
+    let system = machine_code::system(&compiled);
     let run = simulate(&*system, compiled.description(), &compiled.parameters(), settings, Watch::NONE)
         .expect("it starts");
     assert_eq!(run.stopped, None);

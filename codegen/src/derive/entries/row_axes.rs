@@ -26,6 +26,9 @@ const ROWS_IN_PLANE: usize = 2;
 /// Of a cut where one of the two bodies turns freely.
 const ROWS_AT_BALL: usize = 3;
 
+/// Counts are taken before what positions say and before passes: a tree that takes a few parts in a hundred less may take more then.
+const CLEARLY: f64 = 0.95;
+
 /// A step asks for accelerations at four states and more, and closes loops about twice.
 const SOLVED_PER_CLOSED: usize = 2;
 
@@ -70,6 +73,20 @@ pub fn shorter_off_balls(mechanism: &Mechanism, topology: &Topology) -> bool {
         SOLVED_PER_CLOSED * solved + closed
     };
     by(true) < by(false)
+}
+
+/// Whether the equations by another tree are so much shorter that it pays to have other coordinates.
+pub fn clearly_shorter(mechanism: &Mechanism, [other, topology]: [&Topology; 2]) -> bool {
+    let count = |topology: &Topology| {
+        let linkage = tree(mechanism, topology);
+        let rows: usize = topology.cuts.iter().map(|cut| mechanism.joint(*cut).model.rows()).sum();
+        let is_short = linkage.speeds() + rows <= MOST_TO_COMPARE;
+        is_short.then(|| {
+            let [solved, closed] = operations(mechanism, topology);
+            (SOLVED_PER_CLOSED * solved + closed) as f64
+        })
+    };
+    matches!((count(other), count(topology)), (Some(other), Some(own)) if other < CLEARLY * own)
 }
 
 /// Whether of a plane loop's two rows along axes of W one alone is kept. Which of them the other rows make redundant changes

@@ -1,0 +1,45 @@
+//! A spanning tree that carries flexible bodies where their sections may turn freely.
+//! In: [`Mechanism`], [`Topology`]. Out: another one, if there is a choice. Never knows which of them makes the shorter equations.
+//!
+//! A section turns as its body bends. A joint that holds it turns all that it carries along with the modes; a ball does not feel it.
+
+use super::topology::{carries_at_will, grown_by};
+use super::{Carrier, Joint, Mechanism, Topology};
+use crate::id::JointId;
+
+/// The tree in which cuts that feel no modes have changed places with joints of their loops that feel the most; nothing if there
+/// are none that may.
+pub fn with_free_sections(mechanism: &Mechanism, topology: &Topology) -> Option<Topology> {
+    let mut carries: Vec<bool> = vec![true; mechanism.joints.len()];
+    topology.cuts.iter().for_each(|cut| carries[cut.index()] = false);
+    let may = carries_at_will(mechanism);
+    for cut in topology.cuts.iter().filter(|cut| may[cut.index()]) {
+        let joint = mechanism.joint(*cut);
+        if modes_felt(mechanism, joint) > 0 {
+            continue;
+        }
+        let others = topology.between(joint).into_iter().filter(|id| may[id.index()] && carries[id.index()]);
+        let felt = |id: &JointId| modes_felt(mechanism, mechanism.joint(*id));
+        let Some(most) = others.max_by_key(|id| (felt(id), std::cmp::Reverse(*id))) else { continue };
+        if felt(&most) > 0 {
+            (carries[cut.index()], carries[most.index()]) = (true, false);
+        }
+    }
+    let same = topology.cuts.iter().all(|cut| !carries[cut.index()]);
+    if same { None } else { grown_by(mechanism, &carries) }
+}
+
+/// How many modes of the bodies on its two sides turn their sections at a joint that holds them.
+fn modes_felt(mechanism: &Mechanism, joint: &Joint) -> usize {
+    if joint.model.turns_freely() {
+        return 0;
+    }
+    let at = |(side, point)| {
+        let Carrier::Body(body) = side else { return 0 };
+        let flexible = mechanism.body(body).flexible.as_ref();
+        flexible.map_or(0, |flexible| {
+            flexible.node_at(point).rotation.iter().filter(|turn| **turn != [0.0; 3]).count()
+        })
+    };
+    [joint.parent, joint.child].into_iter().zip(joint.points()).map(at).sum()
+}
