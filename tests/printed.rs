@@ -21,7 +21,7 @@ use labels::compare_picture;
 const NOT_RUN: [(&str, &str); 3] = [
     (
         "linkwear life FILE --mean --format json > life.json",
-        "any mechanism that wears; tests/cli_fit.rs goes this way with a mean path",
+        "any mechanism that wears; tests/cli/fit.rs goes this way with a mean path",
     ),
     (
         "linkwear fit WEAR.csv --unit unit --wear wear_um --exposure cycles --lambda life.json --out fit.json",

@@ -3,6 +3,7 @@
 
 use std::path::PathBuf;
 use std::process::{Child, Command, Output, Stdio};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use serde_json::Value;
 
@@ -57,12 +58,16 @@ pub fn start(arguments: &[&str]) -> Child {
     command.spawn().expect("`env` of the GNU core utilities runs the program")
 }
 
+/// How many folders there have been: two tests may choose the same name.
+static FOLDERS: AtomicU32 = AtomicU32::new(0);
+
 /// A folder of its own for one test, removed at its end.
 pub struct Folder(pub PathBuf);
 
 impl Folder {
     pub fn new(test: &str) -> Self {
-        let path = std::env::temp_dir().join(format!("linkwear-cli-{test}-{}", std::process::id()));
+        let (process, number) = (std::process::id(), FOLDERS.fetch_add(1, Ordering::Relaxed));
+        let path = std::env::temp_dir().join(format!("linkwear-cli-{test}-{process}-{number}"));
         std::fs::create_dir_all(&path).expect("temporary folder");
         Self(path)
     }

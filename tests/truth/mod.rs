@@ -23,6 +23,8 @@ pub fn reached(case: &str, figure: &str, error: f64, bound: f64) {
         let file = std::panic::Location::caller().file();
         let thread = std::thread::current();
         let test = thread.name().unwrap_or_default();
+        // Of the way to it, which file it stands in says more.
+        let test = test.rsplit("::").next().unwrap_or(test);
         return write(&key, &format!("{key}{} | {bound:e} | `{file}` | `{test}` |", rounded_up(error)));
     }
     let text = fs::read_to_string(page()).unwrap_or_default();

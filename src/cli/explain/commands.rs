@@ -1,4 +1,4 @@
-//! What the codes of the command line mean, with a command line that gives them and one that does not. `tests/cli_explain.rs`
+//! What the codes of the command line mean, with a command line that gives them and one that does not. `tests/cli/explain.rs`
 //! runs them.
 
 /// A code of the command line.

@@ -1,4 +1,4 @@
-//! MJCF against what its elements mean, and files that are none. `tests/cli_import/mjcf.rs` has MuJoCo's numbers.
+//! MJCF against what its elements mean, and files that are none. `tests/cli/import/mjcf.rs` has MuJoCo's numbers.
 
 use std::io;
 

@@ -1,12 +1,9 @@
 //! `report DIR`: the page of a life that was lived before has the numbers of its folder; what is no such folder is refused with what
 //! to do. Wear of random lives at whole cycles is that of the lives themselves.
-#![cfg(feature = "page")]
-
-mod command;
 
 use std::fs;
 
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 use serde_json::Value;
 
 /// Coarse steps: only numbers are compared.

@@ -1,14 +1,11 @@
 //! `import`: a robot by the command line, and its inverse dynamics by another program.
 
-mod command;
-#[path = "cli_import/mjcf.rs"]
 mod mjcf;
-#[path = "cli_import/parts.rs"]
 mod parts;
 
 use std::collections::BTreeMap;
 
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 
 const ARM: &str = "examples/data/arm.urdf";
 
@@ -54,7 +51,7 @@ fn the_drives_of_the_shipped_arm_are_those_of_pinocchio() {
 
 const PANDA: &str = "tests/data/panda/panda.urdf";
 /// By `rnea.py` in the same folder.
-const PANDA_RNEA: &str = include_str!("data/panda/rnea.csv");
+const PANDA_RNEA: &str = include_str!("../data/panda/rnea.csv");
 /// Mean, amplitude and rate [rad/s] of its joints: the motion of `rnea.py`. The second finger follows by the file's mimic.
 const PANDA_MOTION: [(&str, [f64; 3], &str); 8] = [
     ("panda_joint1", [0.3, 0.9, 2.1], "rad"),

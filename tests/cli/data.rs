@@ -1,13 +1,10 @@
 //! Files that are read: those that a mechanism names lie below it, and no file is shown, waited for or taken whole.
-#![cfg(unix)]
-
-mod command;
 
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::process::Command;
 
-use command::{Answer, Folder, linkwear};
+use crate::command::{Answer, Folder, linkwear};
 
 /// A folder with `inside/m.toml`, whose rod has its modes in `data`, and the modal data in and beside `inside`.
 fn folder(test: &str, data: &str) -> (Folder, String) {

@@ -1,8 +1,6 @@
 //! Units that differ, from the command line: `fit --random-effects`, `predict --unit`, `life --fit`.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 use serde_json::Value;
 
 const LASERS: [&str; 8] =

@@ -1,14 +1,12 @@
 //! `life --out --resume`: a life that was interrupted, in whatever way, ends with the same bits.
 
-mod command;
-
 use std::fs;
 use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use command::{Answer, Folder, linkwear, start};
+use crate::command::{Answer, Folder, linkwear, start};
 
 /// Coarse steps: only bits are compared. Most of the time goes into the table, then come the lives.
 const LIFE: [&str; 9] =
@@ -67,7 +65,7 @@ fn a_killed_life_ends_with_the_same_bits() {
     kills(&Folder::new("kill"), &RANDOM, 3);
 }
 
-/// `cargo test --release --test cli_life_resume -- --ignored --nocapture`, alone on its machine: it measures times.
+/// `cargo test --release --test cli life_resume:: -- --ignored --nocapture`, alone on its machine: it measures times.
 #[test]
 #[ignore = "minutes; times want a machine of their own"]
 fn fifty_killed_lives_end_with_the_same_bits_and_lose_little() {

@@ -1,8 +1,6 @@
 //! `life --mission`: what is told of segments, resumed and in shards; wrong choices.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 
 const DUTY: &str = "examples/data/four_bar_duty.toml";
 /// Its joint chatters, and turns until it has settled are most of a life: only what is told of it is looked at.

@@ -1,8 +1,6 @@
 //! `plan`: replacement, looks, spares, by the command line, from a fit and from lives.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 use serde_json::Value;
 
 /// Wear of a Gamma process: mean 2 per unit of exposure, threshold 20 in the tests.

@@ -1,10 +1,8 @@
 //! `life`: the coupled wear of the case study from the command line.
 
-mod command;
-
 use std::process::Command;
 
-use command::{Answer, Folder, linkwear};
+use crate::command::{Answer, Folder, linkwear};
 use linkwear_gamma::life::{Bands, Clock, Estimate, FirstPassage, Law, Lifetime, Method, OperatingState};
 use linkwear_gamma::process::Gamma;
 use linkwear_gamma::series::{SeriesSystem, SharedFactor};

@@ -1,8 +1,6 @@
 //! `study`: rows are what `simulate` and `life` answer at the same point, whatever runs them, in whatever order, in how many parts;
 //! what cannot be studied is answered with what to write.
 
-mod command;
-
 use std::fs;
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -10,7 +8,7 @@ use std::process::{Child, Command};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use command::{Answer, Folder, linkwear, start};
+use crate::command::{Answer, Folder, linkwear, start};
 use linkwear::cli::ask;
 use linkwear::mechanism::read_source;
 use linkwear::runtime::Watch;

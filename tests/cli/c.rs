@@ -1,12 +1,10 @@
 //! `generate --target c` and `--target c-abi`: files, what `--check` says of them, and the page of the documentation word for word.
 
-mod command;
-
 use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 
 const PENDULUM: &str = "mechanisms/pendulum.toml";
 
@@ -144,7 +142,7 @@ fn the_same_files_give_the_same_bits_on_bare_metal() {
     let commands = blocks(&page, "sh");
     let first = commands[0].lines().next().unwrap();
     let printed = shell(&folder, &format!("{first} > /dev/null\n{}", commands[1]));
-    let host = include_str!("command/thousand_steps.c");
+    let host = include_str!("../command/thousand_steps.c");
     fs::write(folder.0.join("host.c"), host).unwrap();
     let expected =
         shell(&folder, "cc -std=c99 -O2 -ffp-contract=off host.c rssr_rigid.c -lm -o host\n./host");

@@ -1,11 +1,9 @@
 //! `explain`: what every code of the command line means, by command lines that give it and some that do not. The codes of
 //! mechanism files are tried where they are explained.
 
-mod command;
-
 use std::os::unix::fs::symlink;
 
-use command::{Answer, Folder, linkwear};
+use crate::command::{Answer, Folder, linkwear};
 
 /// A folder that looks like the project's to a command line.
 fn folder(name: &str) -> Folder {

@@ -1,9 +1,7 @@
 //! `identify`: what a simulated curve with noise was made with is found again, what cannot be told is not, and wrong questions are
 //! answered with what to write.
 
-mod command;
-
-use command::{Answer, Folder, linkwear};
+use crate::command::{Answer, Folder, linkwear};
 use serde_json::Value;
 
 const DRIVE: &str = "examples/data/rocker_drive.toml";

@@ -1,8 +1,6 @@
 //! `diff`: two results, or two mechanism files, side by side.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 use serde_json::Value;
 
 const RSSR: &str = "mechanisms/rssr_rigid.toml";

@@ -1,8 +1,6 @@
 //! `simulate`: what scripts read, what files appear, and which back end runs.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 use serde_json::Value;
 
 const PENDULUM: &str = "mechanisms/pendulum.toml";
@@ -231,12 +229,20 @@ fn an_interrupt_keeps_what_was_computed() {
     let folder = Folder::new("interrupt");
     let out = folder.write("rows.csv", "t [s]\ncomplete rows of an earlier run");
     // Long enough that it cannot end before the signal comes.
-    let child =
-        command::start(&["simulate", PENDULUM, "--time", "1e7", "--samples", "2000000", "--out", &out]);
+    let child = crate::command::start(&[
+        "simulate",
+        PENDULUM,
+        "--time",
+        "1e7",
+        "--samples",
+        "2000000",
+        "--out",
+        &out,
+    ]);
     std::thread::sleep(std::time::Duration::from_millis(1500));
     let killed = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(killed.expect("kill runs").success());
-    let answer = command::Answer::of(child.wait_with_output().expect("an end"));
+    let answer = crate::command::Answer::of(child.wait_with_output().expect("an end"));
     assert_eq!(answer.code, 1);
     assert!(answer.err.contains("C0009"), "{}", answer.err);
     assert_eq!(folder.read("rows.csv"), "t [s]\ncomplete rows of an earlier run");

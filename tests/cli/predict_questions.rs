@@ -1,8 +1,6 @@
 //! `predict`: what can be asked beyond the usual: any quantile, times, missions, dates, machines of several joints.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 use linkwear_gamma::life::{Clock, FirstPassage, Law, Lifetime};
 use linkwear_gamma::process::Gamma;
 use serde_json::Value;

@@ -1,8 +1,6 @@
 //! Mechanisms of parts by the command line: columns, `--set`, faults, C, FMI.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 
 const WALKER: &str = "examples/data/walker.toml";
 

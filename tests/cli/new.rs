@@ -1,8 +1,6 @@
 //! `new`: every starter goes all the way from the file to its life and its page.
 
-mod command;
-
-use command::Folder;
+use crate::command::Folder;
 use serde_json::Value;
 
 /// The commands that `new` tells to go on with all work, one after the other, without a warning.

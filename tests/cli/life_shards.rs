@@ -1,11 +1,9 @@
 //! `life --shard` and `merge`: shards lived apart are together the undivided life, in every byte; what cannot be put together is
 //! refused with what to do.
 
-mod command;
-
 use std::fs;
 
-use command::{Answer, Folder, linkwear};
+use crate::command::{Answer, Folder, linkwear};
 
 /// Coarse steps and few lives: only bytes are compared.
 const LIFE: [&str; 11] = [

@@ -1,15 +1,12 @@
 //! `fit`: Gamma processes of measured wear from the command line.
 
-mod command;
-mod truth;
-
 use std::fs;
 use std::path::PathBuf;
 
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
+use crate::truth::reached;
 use linkwear_gamma::special::ln_gamma;
 use serde_json::Value;
-use truth::reached;
 
 const HEAVY: &str = "examples/data/sliding_wear_100g.csv";
 const COLUMNS: [&str; 6] = ["--unit", "unit", "--wear", "wear_um", "--exposure", "cycles"];

@@ -1,8 +1,6 @@
 //! `check`, `equations` and `generate` on shipped mechanisms: fields scripts rely on, and what people read.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 use serde_json::Value;
 
 /// The fields of an `operations` object, in order.

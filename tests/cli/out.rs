@@ -1,14 +1,11 @@
 //! Where results are written: files whole and with their permissions, streams straight, nothing else.
-#![cfg(unix)]
-
-mod command;
 
 use std::fs::{self, File, Permissions};
 use std::io::Read as _;
 use std::os::unix::fs::{FileTypeExt as _, PermissionsExt as _, symlink};
 use std::process::{Command, Stdio};
 
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 
 const PENDULUM: &str = "mechanisms/pendulum.toml";
 
@@ -273,7 +270,7 @@ fn a_pipe_by_name_hands_the_rows_to_its_reader() {
 fn a_signal_while_a_large_file_is_written_leaves_nothing_half_written() {
     let folder = Folder::new("signal");
     let out = folder.write("rows.csv", OLD);
-    let mut child = command::start(&[
+    let mut child = crate::command::start(&[
         "simulate",
         PENDULUM,
         "--time",

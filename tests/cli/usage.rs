@@ -1,8 +1,6 @@
 //! The command line itself: exit codes, help, usage errors, and nothing but JSON on stdout.
 
-mod command;
-
-use command::{Answer, linkwear};
+use crate::command::{Answer, linkwear};
 use serde_json::Value;
 
 #[test]
@@ -99,7 +97,7 @@ fn an_error_object_has_the_six_fields_scripts_read() {
 
 #[test]
 fn a_broken_file_is_an_error_of_the_input_with_its_place() {
-    let folder = command::Folder::new("broken");
+    let folder = crate::command::Folder::new("broken");
     let file = folder.write("broken.toml", "spec = 1\nname = = \"x\"\n");
     for name in ["check", "cost", "equations", "generate", "simulate"] {
         let answer = linkwear(&[name, &file]);
@@ -113,7 +111,7 @@ fn a_broken_file_is_an_error_of_the_input_with_its_place() {
 
 #[test]
 fn a_closed_pipe_is_no_error() {
-    let mut child = command::start(&["generate", "mechanisms/rssr_rigid.toml"]);
+    let mut child = crate::command::start(&["generate", "mechanisms/rssr_rigid.toml"]);
     drop(child.stdout.take());
     let answer = Answer::of(child.wait_with_output().expect("an end"));
     assert_eq!((answer.code, answer.err.as_str()), (0, ""));
@@ -144,7 +142,7 @@ fn packagers_get_completions_and_a_manual() {
 
 #[test]
 fn pages_of_the_manual_name_only_pages_that_exist() {
-    let folder = command::Folder::new("man");
+    let folder = crate::command::Folder::new("man");
     let told = folder.linkwear(&["man", "--out", "man1", "--format", "json"]).json();
     let files: Vec<&str> =
         told["files"].as_array().expect("a list").iter().filter_map(Value::as_str).collect();

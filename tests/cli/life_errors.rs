@@ -1,8 +1,6 @@
 //! `life` says how far its numbers may be off, and how long they are in hours.
 
-mod command;
-
-use command::linkwear;
+use crate::command::linkwear;
 use serde_json::Value;
 
 const RSSR: &str = "mechanisms/rssr.toml";
@@ -66,7 +64,7 @@ fn a_few_lives_have_wide_intervals_and_every_life_a_time() {
 
 #[test]
 fn a_drive_of_uneven_turns_has_a_life_without_hours() {
-    let folder = command::Folder::new("life-uneven");
+    let folder = crate::command::Folder::new("life-uneven");
     let text = std::fs::read_to_string(RSSR).expect("the case study");
     let uneven = text.replace("drive = \"2*pi*speed*t\"", "drive = \"2*pi*speed*t + 0.2*sin(3*speed*t)\"");
     assert_ne!(uneven, text);
@@ -79,7 +77,7 @@ fn a_drive_of_uneven_turns_has_a_life_without_hours() {
 
 #[test]
 fn a_life_by_the_dynamics_says_before_it_begins_what_it_costs_and_what_a_table_would() {
-    let folder = command::Folder::new("life-cost");
+    let folder = crate::command::Folder::new("life-cost");
     let text = std::fs::read_to_string(RSSR).expect("the case study");
     // Two cycles and a half, and a worn profile that is fed back.
     let worn = text.replace("[wear.R1]", "[wear.R1]\nprofile = true\nmeasure = \"maximum\"");
@@ -103,7 +101,7 @@ fn a_life_by_the_dynamics_says_before_it_begins_what_it_costs_and_what_a_table_w
 
 #[test]
 fn check_and_life_say_what_wear_is_and_when_to_take_another_measure() {
-    let folder = command::Folder::new("life-measure");
+    let folder = crate::command::Folder::new("life-measure");
     let text = std::fs::read_to_string(RSSR).expect("the case study");
     let kinds = [
         ("depth", "", false, "one place as large as the contact"),

@@ -1,8 +1,6 @@
 //! `predict`: remaining life from a fit file and from inspections, by the command line.
 
-mod command;
-
-use command::{Folder, linkwear};
+use crate::command::{Folder, linkwear};
 use linkwear_gamma::life::{Bands, Clock, Estimate, FirstPassage, Law, Lifetime, Method, OperatingState};
 use linkwear_gamma::process::Gamma;
 use serde_json::Value;
