@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use crate::command::{Folder, linkwear};
-use crate::{driven, imported};
+use super::{driven, imported};
 
-const NUMBERS: &str = include_str!("../data/mjcf/mujoco.csv");
+const NUMBERS: &str = include_str!("../../data/mjcf/mujoco.csv");
 const ARM: &str = "tests/data/mjcf/arm.xml";
 const HUMANOID: &str = "tests/data/humanoid/humanoid.xml";
 const PRESS: &str = "examples/data/press/press.xml";
