@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::command::{Folder, linkwear};
 use super::{driven, imported};
+use crate::command::{Folder, linkwear};
 
 const NUMBERS: &str = include_str!("../../data/mjcf/mujoco.csv");
 const ARM: &str = "tests/data/mjcf/arm.xml";
