@@ -55,6 +55,25 @@ fn what_the_file_asks_for_stays_in_the_tree() {
 }
 
 #[test]
+fn the_tree_stays_where_the_start_would_be_another() {
+    let chosen = engine("", "", "");
+    // Away from where it is drawn loops close by guesses of the tree's coordinates.
+    let ahead = chosen.replace("drive = \"2*pi", "drive = \"0.2+2*pi");
+    assert_eq!(cuts(&ahead), ["crank_pin"]);
+    // The rod may spin: with how much it begins, the driver does not say.
+    let (from, to) = ("piston_pin = { universal", "piston_pin = { spherical");
+    let spins = chosen.replace(from, to).replace(", axes = [[0, 0, 1], [0, 1, 0]]", "");
+    let spins = spins.replace("guide = { prismatic", "guide = { cylindrical");
+    let turned = spins.replace(
+        "crank_pin = { spherical = [\"crank\", \"rod\"], at = \"A\"",
+        "crank_pin = { universal = [\"crank\", \"rod\"], at = \"A\", axes = [[0, 0, 1], [0, 1, 0]]",
+    );
+    let driven = cuts(&turned);
+    let at_rest = cuts(&turned.replace(", drive = \"2*pi*10*t/(1 s)\"", ""));
+    assert_ne!(driven, at_rest);
+}
+
+#[test]
 fn another_tree_moves_alike_in_fewer_operations() {
     let [chosen, other] = ["", ", cut = true"].map(|cut| engine(cut, "", ""));
     let total =

@@ -3,13 +3,16 @@
 //!
 //! A section turns as its body bends. A joint that holds it turns all that it carries along with the modes; a ball does not feel it.
 
-use super::topology::{carries_at_will, grown_by};
+use super::topology::{carries_at_will, freedoms, grown_by, is_open};
 use super::{Carrier, Joint, Mechanism, Topology};
 use crate::id::JointId;
 
 /// The tree in which cuts that feel no modes have changed places with joints of their loops that feel the most; nothing if there
-/// are none that may.
+/// are none that may, or if the start might be another one.
 pub fn with_free_sections(mechanism: &Mechanism, topology: &Topology) -> Option<Topology> {
+    if !starts_alike(mechanism, topology) {
+        return None;
+    }
     let mut carries: Vec<bool> = vec![true; mechanism.joints.len()];
     topology.cuts.iter().for_each(|cut| carries[cut.index()] = false);
     let may = carries_at_will(mechanism);
@@ -27,6 +30,17 @@ pub fn with_free_sections(mechanism: &Mechanism, topology: &Topology) -> Option<
     }
     let same = topology.cuts.iter().all(|cut| !carries[cut.index()]);
     if same { None } else { grown_by(mechanism, &carries) }
+}
+
+/// Whether a mechanism starts with the same motion by any tree: as it is drawn, so that nothing is looked for from guesses, and at rest
+/// or with no freedom that drivers leave open, whose speed would be the least of the tree's.
+fn starts_alike(mechanism: &Mechanism, topology: &Topology) -> bool {
+    let parameters = mechanism.parameter_values();
+    let drawn = mechanism.drives().all(|(_, drive)| drive.law.value_at_time(&parameters, 0.0) == Some(0.0));
+    let closed = !mechanism.joints.iter().any(|joint| is_open(mechanism, joint));
+    let drivers = mechanism.drives().count();
+    let fixed = drivers == 0 || freedoms(mechanism, topology) <= drivers as isize;
+    drawn && closed && fixed && mechanism.starts.is_empty()
 }
 
 /// How many modes of the bodies on its two sides turn their sections at a joint that holds them.

@@ -60,6 +60,12 @@ pub(super) fn grown_by(mechanism: &Mechanism, carries: &[bool]) -> Option<Topolo
     depths.iter().all(Option::is_some).then(|| with_cuts(mechanism, tree))
 }
 
+/// Freedoms by Grübler's count: speeds less rows, those of modes left out.
+pub(super) fn freedoms(mechanism: &Mechanism, topology: &Topology) -> isize {
+    let rows: usize = topology.cuts.iter().map(|cut| mechanism.joint(*cut).model.rows()).sum();
+    speeds(mechanism, &topology.tree) as isize - rows as isize
+}
+
 /// By joint, whether nothing asks for its coordinates and nothing asks for its cut.
 pub(super) fn carries_at_will(mechanism: &Mechanism) -> Vec<bool> {
     let unasked = |(joint, class): (&Joint, Class)| {
@@ -181,7 +187,7 @@ fn must_cut(mechanism: &Mechanism, joint: &Joint) -> bool {
 }
 
 /// Whether the branches on the two sides of the joint are described open.
-fn is_open(mechanism: &Mechanism, joint: &Joint) -> bool {
+pub(super) fn is_open(mechanism: &Mechanism, joint: &Joint) -> bool {
     let axes = joint.model.axes.iter().any(|axis| axis.parent != axis.child);
     let point = match &mechanism.point(joint.at).position {
         Position::Shared(_) => false,
