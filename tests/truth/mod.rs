@@ -23,7 +23,7 @@ pub fn reached(case: &str, figure: &str, error: f64, bound: f64) {
         let file = std::panic::Location::caller().file();
         let thread = std::thread::current();
         let test = thread.name().unwrap_or_default();
-        // Of the way to it, which file it stands in says more.
+        // Its modules are those of the file, which the row names.
         let test = test.rsplit("::").next().unwrap_or(test);
         return write(&key, &format!("{key}{} | {bound:e} | `{file}` | `{test}` |", rounded_up(error)));
     }

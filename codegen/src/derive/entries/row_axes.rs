@@ -1,4 +1,4 @@
-//! Along which axes the rows of loops are shortest.
+//! Along which axes the rows of loops are shortest, and by which of two trees.
 //! In: [`Mechanism`], [`Topology`]. Out: a choice, the same for all entry points. Never knows positions.
 
 use crate::expr::{Expr, Scope};
