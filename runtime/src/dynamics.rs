@@ -6,7 +6,7 @@ mod pivots;
 
 use crate::error::RunError;
 use crate::evaluate::{Evaluator, Forward};
-use crate::linear::{is_finite, largest};
+use crate::linear::{is_finite, largest, replace};
 use crate::passage::{Judge, Limit, Passage};
 use crate::regularity::PROJECTED_STAGES;
 use crate::singular_dynamics::SingularSolver;
@@ -102,20 +102,30 @@ impl<'a> Dynamics<'a> {
         self.check(t)
     }
 
-    /// The slopes of the stages within a step, if they can be evaluated at once: at states as regular as any.
-    pub(crate) fn inner_stages(&mut self, step: &StagesOf<'_>) -> Option<[&[f64]; INNER_STAGES]> {
+    /// Writes the slopes of the stages within a step, if they can be evaluated at once: at states as regular as any. Whether it did.
+    pub(crate) fn inner_stages(
+        &mut self,
+        step: &StagesOf<'_>,
+        mut slopes: [&mut [f64]; INNER_STAGES],
+    ) -> bool {
         let regular = |nearness: f64| nearness >= PROJECTED_STAGES.max(ROUNDED * self.singular_pivot);
         if !regular(self.nearness) {
-            return None;
+            return false;
         }
-        let answer = self.evaluator.inner_stages(step, self.largest_pivots.known())?;
+        let Some(answer) = self.evaluator.inner_stages(step, self.largest_pivots.known()) else {
+            return false;
+        };
         if !regular(answer.least_nearness) {
-            return None;
+            return false;
         }
         self.evaluations += INNER_STAGES as u64;
         (self.nearness, self.rank_lost) = (answer.nearness, false);
         self.largest_pivots.note(answer.grown_pivots);
-        Some(answer.slopes)
+        let flat = answer.slopes.len() / INNER_STAGES;
+        for (slope, known) in slopes.iter_mut().zip(answer.slopes.chunks_exact(flat)) {
+            replace(slope, known);
+        }
+        true
     }
 
     /// Sees how regular a state is; no part of what a run costs.

@@ -4,15 +4,15 @@
 use crate::clearance_joint::Clearances;
 use crate::flat_laws::{StagesPlaces, write_memories};
 use crate::linear::replace;
-use crate::system::{INNER_STAGES, InnerStages, Sizes, StagesOf, WithLaws};
+use crate::system::{InnerStages, Sizes, StagesOf, WithLaws};
 
 /// Steps that a run takes before code is written for their stages: to write it takes as long as some thousand derivatives.
 const FIRST_STEPS: u32 = 500;
 
 /// What all stages of a step answer.
 pub(crate) struct StagesAnswer<'s> {
-    /// Slopes of the flat state.
-    pub(crate) slopes: [&'s [f64]; INNER_STAGES],
+    /// Slopes of the flat state, one behind the other.
+    pub(crate) slopes: &'s [f64],
     /// How regular the loops are at the last stage; the least of all, no number if an answer is infinite or none.
     pub(crate) nearness: f64,
     pub(crate) least_nearness: f64,
@@ -68,10 +68,8 @@ impl<'a> Stages<'a> {
         question[at.pivots.clone()].copy_from_slice(pivots);
         code.evaluate(question, &mut self.answer, &mut self.workspace);
         let answer = &self.answer;
-        let slopes = &answer[at.slopes.clone()];
-        let flat = slopes.len() / INNER_STAGES;
         Some(StagesAnswer {
-            slopes: std::array::from_fn(|stage| &slopes[stage * flat..(stage + 1) * flat]),
+            slopes: &answer[at.slopes.clone()],
             nearness: answer[at.nearness],
             least_nearness: answer[at.least_nearness],
             grown_pivots: &answer[at.grown_pivots.clone()],

@@ -36,11 +36,11 @@ pub trait Problem {
         one_by_one((times, states), derivatives, |t, y, derivative| self.derivative(t, y, derivative))
     }
 
-    /// The slopes of the stages within a step of the classical Runge-Kutta method, if it can evaluate them at once; if not, they are
-    /// asked for one by one.
-    fn inner_stages(&mut self, step: &StagesOf<'_>) -> Option<[&[f64]; INNER_STAGES]> {
-        let _ = step;
-        None
+    /// Writes the slopes of the stages within a step of the classical Runge-Kutta method, if it can evaluate them at once. Whether it
+    /// did: if not, they are asked for one by one.
+    fn inner_stages(&mut self, step: &StagesOf<'_>, slopes: [&mut [f64]; INNER_STAGES]) -> bool {
+        let _ = (step, slopes);
+        false
     }
 
     /// Puts the result `y` of a step from `before` onto the constraints.

@@ -35,15 +35,13 @@ impl Rk4 {
         problem.reached(t, y, k1);
         let times = [t + 0.5 * step, t + step];
         let stages = StagesOf { times, length: step, y, slope: k1 };
-        if let Some([k2, k3, k4]) = problem.inner_stages(&stages) {
-            advance(stage, y, step, [k1, k2, k3, k4]);
-        } else {
+        if !problem.inner_stages(&stages, [&mut *k2, &mut *k3, &mut *k4]) {
             let slopes = (&*k1, [&mut *k2, &mut *k3, &mut *k4]);
             inner_stages((times, step), y, stage, slopes, &mut |t, y, slope| {
                 problem.derivative(t, y, slope)
             })?;
-            advance(stage, y, step, [k1, k2, k3, k4]);
         }
+        advance(stage, y, step, [k1, k2, k3, k4]);
         problem.project(t + step, y, stage)?;
         y.copy_from_slice(stage);
         Ok(())

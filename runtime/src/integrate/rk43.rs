@@ -10,7 +10,6 @@ use super::dense::Cubics;
 use super::problem::Problem;
 use super::step_control::SAFETY;
 use crate::error::RunError;
-use crate::linear::replace;
 use crate::runge_kutta::inner_stages;
 use crate::scalar::Scalar;
 use crate::system::StagesOf;
@@ -26,15 +25,6 @@ pub(crate) const PARTS: [f64; 3] = [0.5, 0.5, 1.0];
 #[inline(always)]
 pub(crate) fn step_of<T: Scalar>(y: T, length: T, [a, b, c, d]: [T; 4]) -> T {
     y + length / T::constant(6.0) * (a + T::constant(2.0) * (b + c) + d)
-}
-
-/// Writes the end of a step from `y`. Of slices cut to one length compilers make loops without checks.
-fn write_end(next: &mut [f64], (y, length): (&[f64], f64), slopes: [&[f64]; 4]) {
-    let n = next.len();
-    let (y, [a, b, c, d]) = (&y[..n], slopes.map(|slope| &slope[..n]));
-    for i in 0..n {
-        next[i] = step_of(y[i], length, [a[i], b[i], c[i], d[i]]);
-    }
 }
 
 /// Error per second, by the slopes of the last stage and at the end.
@@ -96,17 +86,16 @@ impl Method for Rk43 {
         let [first, b, c, d, _] = &mut self.slopes;
         let times = [step.t + 0.5 * length, step.end];
         let stages = StagesOf { times, length, y: step.y, slope: first };
-        if let Some([b, c, known]) = problem.inner_stages(&stages) {
-            write_end(next, (step.y, length), [first, b, c, known]);
-            replace(d, known);
-        } else {
+        if !problem.inner_stages(&stages, [&mut *b, &mut *c, &mut *d]) {
             let slopes = (&**first, [&mut **b, &mut **c, &mut **d]);
             inner_stages((times, length), step.y, next, slopes, &mut |t, y, slope| {
                 problem.derivative(t, y, slope)
             })?;
-            write_end(next, (step.y, length), [first, b, c, d]);
         }
-        let [.., d, end] = &mut self.slopes;
+        let [a, b, c, d, end] = &mut self.slopes;
+        for (i, (next, y)) in next.iter_mut().zip(step.y).enumerate() {
+            *next = step_of(*y, length, [a[i], b[i], c[i], d[i]]);
+        }
         problem.project(step.end, step.y, next)?;
         problem.derivative(step.end, next, end)?;
         for ((error, end), last) in error.iter_mut().zip(end).zip(d) {

@@ -52,12 +52,6 @@ pub fn is_finite(values: &[f64]) -> bool {
     values.iter().fold(0, |bits, x| bits | (0.0 * x).to_bits()) << 1 == 0
 }
 
-/// Whether all numbers are the same to the last bit, of two slices of one length.
-#[inline]
-pub fn same_bits(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).fold(0, |bits, (a, b)| bits | (a.to_bits() ^ b.to_bits())) == 0
-}
-
 /// Copies what was written just now; whether nothing changed. Numbers go in pairs, as loops write them: processors wait until all is
 /// through where a copy reads more than that at once.
 ///

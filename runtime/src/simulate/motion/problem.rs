@@ -60,8 +60,8 @@ impl Problem for ConstrainedMotion<'_> {
         outcome
     }
 
-    fn inner_stages(&mut self, step: &StagesOf<'_>) -> Option<[&[f64]; INNER_STAGES]> {
-        self.dynamics.inner_stages(step)
+    fn inner_stages(&mut self, step: &StagesOf<'_>, slopes: [&mut [f64]; INNER_STAGES]) -> bool {
+        self.dynamics.inner_stages(step, slopes)
     }
 
     fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {
