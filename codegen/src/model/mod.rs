@@ -325,6 +325,11 @@ impl Mechanism {
     pub fn rigid_couplings(&self) -> impl Iterator<Item = &Coupling> {
         self.couplings.iter().filter(|coupling| coupling.compliance.is_none())
     }
+    /// Freedoms by the Grübler-Kutzbach count: 6 (bodies) minus what every joint and coupling takes away. Modes do not count.
+    pub fn grubler(&self) -> i64 {
+        let taken: usize = self.joints.iter().map(|joint| joint.model.rows()).sum();
+        6 * self.bodies.len() as i64 - (taken + self.rigid_couplings().count()) as i64
+    }
     /// Takes the modes of all flexible bodies away: same mass, no deformation.
     pub fn freeze(&mut self) {
         for flexible in self.bodies.iter_mut().filter_map(|body| body.flexible.as_mut()) {

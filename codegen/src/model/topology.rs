@@ -60,12 +60,6 @@ pub(super) fn grown_by(mechanism: &Mechanism, carries: &[bool]) -> Option<Topolo
     depths.iter().all(Option::is_some).then(|| with_cuts(mechanism, tree))
 }
 
-/// Freedoms by Grübler's count: speeds less rows, those of modes left out.
-pub(super) fn freedoms(mechanism: &Mechanism, topology: &Topology) -> isize {
-    let rows: usize = topology.cuts.iter().map(|cut| mechanism.joint(*cut).model.rows()).sum();
-    speeds(mechanism, &topology.tree) as isize - rows as isize
-}
-
 /// By joint, whether nothing asks for its coordinates and nothing asks for its cut.
 pub(super) fn carries_at_will(mechanism: &Mechanism) -> Vec<bool> {
     let unasked = |(joint, class): (&Joint, Class)| {

@@ -28,7 +28,6 @@ mod without_play;
 
 use crate::derive::Guide;
 use crate::diagnostic::{Diagnostic, Diagnostics};
-use crate::model::Mechanism;
 
 pub use analysis::{Analysis, Redundant};
 pub use assemblies::{Assemblies, Coordinate, are_looked_for, assemblies};
@@ -69,7 +68,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         coordinates: sizes.all_coordinates,
         speeds: sizes.all_speeds,
         constraint_rows: sizes.all_rows,
-        grubler: grubler(mechanism),
+        grubler: mechanism.grubler(),
         drivers: drivers.iter().map(|(joint, _)| mechanism.joint(*joint).name.clone()).collect(),
         cuts: case.topology.cuts.iter().map(|cut| mechanism.joint(*cut).name.clone()).collect(),
         ..Analysis::default()
@@ -160,14 +159,4 @@ fn start_fault(
         (None, Some(error)) => Some(failures::out_of_reach(case.mechanism, &drivers, error)),
         (None, None) => None,
     }
-}
-
-/// 6 (bodies) minus what every joint and coupling takes away.
-fn grubler(mechanism: &Mechanism) -> i64 {
-    let taken: usize = mechanism
-        .joints
-        .iter()
-        .map(|joint| crate::derive::row_count(&joint.model, crate::model::Closure::Joint))
-        .sum();
-    6 * mechanism.bodies.len() as i64 - (taken + mechanism.rigid_couplings().count()) as i64
 }
