@@ -82,9 +82,9 @@ impl Functions {
         Self::of_parts::<1>(tapes, plan, &[Part::Derivative])
     }
 
-    /// The stages within a step: see [`linkwear_runtime::InnerStages`].
-    pub(crate) fn of_stages(tapes: &dyn Tapes, plan: &StepPlan) -> Result<Self, Refusal> {
-        Self::of_parts::<1>(tapes, plan, &[Part::Stages])
+    /// A whole step: see [`linkwear_runtime::ClassicalStep`].
+    pub(crate) fn of_whole_step(tapes: &dyn Tapes, plan: &StepPlan) -> Result<Self, Refusal> {
+        Self::of_parts::<1>(tapes, plan, &[Part::WholeStep])
     }
 
     fn of_parts<const LANES: usize>(

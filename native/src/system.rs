@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use linkwear_runtime::clearance_joint::Clearance;
 use linkwear_runtime::{
-    Description, Entry, InnerStages, STATES, SideBySide, Sizes, StepPlan, System, WithLaws,
+    ClassicalStep, Description, Entry, STATES, SideBySide, Sizes, StepPlan, System, WithLaws,
 };
 use linkwear_tape::{Tape, Tapes};
 
@@ -68,14 +68,14 @@ struct Laws {
     functions: Arc<Functions>,
     /// See [`WithLaws::laws`].
     words: Arc<str>,
-    stages: Arc<Stages>,
+    step: Arc<WholeStep>,
 }
 
-/// The stages within a step, with the laws of contact inside.
-struct Stages {
+/// A whole step, with the laws of contact inside.
+struct WholeStep {
     tapes: Arc<dyn Tapes>,
     plan: StepPlan,
-    /// Written when they are asked for first: the code is three times as long as that of a derivative.
+    /// Written when it is asked for first: the code is four times as long as that of a derivative.
     functions: OnceLock<Option<Functions>>,
 }
 
@@ -155,8 +155,8 @@ impl Native {
         let tapes = Arc::clone(&self.tapes);
         let functions = Arc::new(Functions::of_laws(&*tapes, &plan)?);
         let words = plan.laws().into();
-        let stages = Arc::new(Stages { tapes, plan, functions: OnceLock::new() });
-        Ok(Self { laws: Some(Laws { functions, words, stages }), ..self })
+        let step = Arc::new(WholeStep { tapes, plan, functions: OnceLock::new() });
+        Ok(Self { laws: Some(Laws { functions, words, step }), ..self })
     }
 }
 
@@ -199,14 +199,14 @@ impl WithLaws<f64> for Laws {
         self.functions.run(0, question, answer, workspace);
     }
 
-    fn inner_stages(&self) -> Option<&dyn InnerStages<f64>> {
-        let Stages { tapes, plan, functions } = &*self.stages;
-        let written = functions.get_or_init(|| Functions::of_stages(&**tapes, plan).ok());
-        written.as_ref().map(|written| written as &dyn InnerStages<f64>)
+    fn classical_step(&self) -> Option<&dyn ClassicalStep<f64>> {
+        let WholeStep { tapes, plan, functions } = &*self.step;
+        let written = functions.get_or_init(|| Functions::of_whole_step(&**tapes, plan).ok());
+        written.as_ref().map(|written| written as &dyn ClassicalStep<f64>)
     }
 }
 
-impl InnerStages<f64> for Functions {
+impl ClassicalStep<f64> for Functions {
     fn workspace(&self) -> usize {
         self.workspace()
     }

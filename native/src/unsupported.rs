@@ -26,7 +26,7 @@ impl Functions {
         Self::new::<1>(&[])
     }
 
-    pub(crate) fn of_stages(_: &dyn Tapes, _: &StepPlan) -> Result<Self, Refusal> {
+    pub(crate) fn of_whole_step(_: &dyn Tapes, _: &StepPlan) -> Result<Self, Refusal> {
         Self::new::<1>(&[])
     }
 

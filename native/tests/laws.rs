@@ -5,8 +5,8 @@ use std::path::Path;
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_native::{Native, NativeBundle, Refusal};
 use linkwear_runtime::{
-    Description, INNER_STAGES, Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StepPlan, System,
-    TurnRunner, Watch, WithLaws, simulate,
+    Description, Entry, Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StepPlan, System,
+    TOTALS, TurnRunner, Watch, WithLaws, simulate,
 };
 
 const METHODS: [Integrator; 2] =
@@ -77,13 +77,13 @@ fn wear_and_parameters_change_under_way() {
     assert_eq!(expected.1, found.1);
 }
 
-/// Code of the stages within a step answers in the bits of the plan, and says where its answer does not count.
+/// Code of a whole step answers in the bits of the plan, and says where its answer does not count.
 #[test]
-fn stages_within_a_step_have_the_bits_of_their_plan() {
+fn steps_have_the_bits_of_their_plan() {
     for name in ["mechanisms/rssr.toml", "mechanisms/rssr_ball_wear.toml"] {
         let mechanism = compiled(name);
         let Some([_, inside]) = both(&mechanism) else { return };
-        let code = inside.laws_inside().and_then(WithLaws::inner_stages).expect("code of the stages");
+        let code = inside.laws_inside().and_then(WithLaws::classical_step).expect("code of steps");
         let interpreter = mechanism.interpreter();
         let sizes = System::<f64>::sizes(&interpreter);
         let plan = StepPlan::new(mechanism.description(), sizes).expect("laws");
@@ -92,31 +92,47 @@ fn stages_within_a_step_have_the_bits_of_their_plan() {
             System::evaluate(&interpreter, entry, input, &mut output, &mut workspace);
             output
         };
-        let state = mechanism.start().expect("a start").state;
         let (contacts, clearance) = (sizes.contacts, 1e-5);
+        let mut state = mechanism.start().expect("a start").state;
+        state.resize(sizes.flat_state(), 0.0);
         // Unworn, as stiff as steel, apart; then as the plan lists it.
         let memory = [0.0, 1e10, 0.0, 0.0].repeat(contacts);
         let question = |known: f64, speed: f64| {
             let (length, slope) = (1e-5, vec![speed; state.len()]);
             let times = [0.5 * length, length, length];
             let (known, pivots) = (vec![known; contacts], vec![0.0; sizes.rows]);
-            [mechanism.parameters(), times.to_vec(), state.clone(), slope, memory.clone(), known, pivots]
-                .concat()
+            [
+                mechanism.parameters(),
+                times.to_vec(),
+                state.clone(),
+                slope,
+                memory.clone(),
+                known,
+                pivots,
+                vec![1.0],
+            ]
+            .concat()
         };
+        let flags = sizes.output(Entry::Derivative)
+            + contacts * (TOTALS + StepPlan::CONTACT_ANSWER + 1)
+            + 2 * sizes.flat_state()
+            + sizes.coordinates
+            + sizes.output(Entry::Energy);
         let answer = |question: &[f64]| {
-            assert_eq!(question.len(), plan.stages_question());
-            let expected = plan.stages(&evaluate, question);
+            assert_eq!(question.len(), plan.classical_step_question());
+            let expected = plan.classical_step(&evaluate, question);
             let (mut found, mut workspace) = (vec![0.0; expected.len()], vec![0.0; code.workspace()]);
             code.evaluate(question, &mut found, &mut workspace);
             // What is no number has any sign.
             let bits = |x: &f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
             assert!(expected.iter().map(bits).eq(found.iter().map(bits)), "{name}");
-            // Behind the slopes: regularity at the last stage, and the least.
-            found[INNER_STAGES * sizes.flat_state() + 1]
+            // Behind the energies: regularity at the last inner stage; the least of these, that at the end.
+            [found[flags + 1], found[flags + 2]]
         };
-        assert!(answer(&question(clearance, 0.1)) > 0.5, "{name}");
-        assert_eq!(answer(&question(1.5 * clearance, 0.1)), 0.0, "another clearance, {name}");
-        assert!(answer(&question(clearance, f64::INFINITY)).is_nan(), "no numbers, {name}");
+        assert!(answer(&question(clearance, 0.1)).iter().all(|regular| *regular > 0.5), "{name}");
+        assert_eq!(answer(&question(1.5 * clearance, 0.1)), [0.0; 2], "another clearance, {name}");
+        let [within, _] = answer(&question(clearance, f64::INFINITY));
+        assert!(within.is_nan(), "no numbers, {name}");
     }
 }
 

@@ -1,8 +1,13 @@
 //! The contract with code that tries steps of several trajectories side by side, a lane each. Every lane has the bits that its
 //! trajectory has alone. Never knows how long steps are, nor where machine code comes from.
 
+mod attempt;
+mod conclude;
+mod inner;
 mod places;
 mod plan;
+mod slope;
+mod whole_step;
 
 pub use crate::system::{TOTALS, WORKS};
 

@@ -5,12 +5,13 @@
 mod pivots;
 
 use crate::error::RunError;
-use crate::evaluate::{Evaluator, Forward};
-use crate::linear::{is_finite, largest, replace};
+use crate::evaluate::{Evaluator, Forward, Known, StepLimits};
+use crate::linear::{is_finite, largest};
 use crate::passage::{Judge, Limit, Passage};
 use crate::regularity::PROJECTED_STAGES;
+use crate::runge_kutta::PARTS;
 use crate::singular_dynamics::SingularSolver;
-use crate::system::{INNER_STAGES, StagesOf};
+use crate::system::StepOf;
 use pivots::LargestPivots;
 
 /// A loop pivot (about the square of a singular value) below this part of the largest value the same pivot
@@ -53,6 +54,8 @@ pub struct Dynamics<'a> {
     pub(crate) passage: Passage,
     /// Whether the rows lost rank at the last state, so that they do not tell all forces there.
     rank_lost: bool,
+    /// The last answer that was found regular and finite, how often the largest pivots had changed by then, and how regular it is.
+    seen: Option<(Known, u64, f64)>,
     /// The answer of the generated elimination.
     direct: Vec<f64>,
 }
@@ -83,6 +86,7 @@ impl<'a> Dynamics<'a> {
             solver,
             passage,
             rank_lost: false,
+            seen: None,
         }
     }
 
@@ -93,39 +97,70 @@ impl<'a> Dynamics<'a> {
     /// [`RunError::NonFinite`] if one of them is infinite or not a number.
     pub fn accelerate(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), RunError> {
         self.evaluations += 1;
-        self.see_nearness(t, q, v);
         self.rank_lost = false;
+        if let Some((known, changes, nearness)) = self.seen
+            && self.largest_pivots.changes() == changes
+            && self.evaluator.holds_at(known, (t, q, v))
+        {
+            self.nearness = nearness;
+            return Ok(());
+        }
+        self.see_nearness(t, q, v);
+        self.judge(t, q, v)
+    }
+
+    /// The same of a state for which this was known. Whether it still is.
+    ///
+    /// # Errors
+    /// As [`Self::accelerate`].
+    pub(crate) fn accelerate_known(
+        &mut self,
+        known: Known,
+        (t, q, v): (f64, &[f64], &[f64]),
+    ) -> Result<bool, RunError> {
+        if !self.evaluator.holds(known) {
+            return Ok(false);
+        }
+        debug_assert!(self.evaluator.holds_at(known, (t, q, v)));
+        self.evaluations += 1;
+        self.rank_lost = false;
+        self.nearness = self.largest_pivots.note(self.evaluator.last_forward().pivots);
+        self.judge(t, q, v).map(|()| true)
+    }
+
+    /// Goes the ways of nearly singular states, if the last one is.
+    fn judge(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), RunError> {
         if self.nearness < ROUNDED * self.singular_pivot {
             self.pass(t, q, v);
             self.evaluations += std::mem::take(&mut self.passage.evaluations);
+            return self.check(t);
         }
-        self.check(t)
+        self.check(t)?;
+        let changes = self.largest_pivots.changes();
+        self.seen = self.evaluator.known().map(|known| (known, changes, self.nearness));
+        Ok(())
     }
 
-    /// Writes the slopes of the stages within a step, if they can be evaluated at once: at states as regular as any. Whether it did.
-    pub(crate) fn inner_stages(
-        &mut self,
-        step: &StagesOf<'_>,
-        mut slopes: [&mut [f64]; INNER_STAGES],
-    ) -> bool {
-        let regular = |nearness: f64| nearness >= PROJECTED_STAGES.max(ROUNDED * self.singular_pivot);
-        if !regular(self.nearness) {
+    /// Evaluates the inner stages of a step at once, and its end as far as it needs no projection, if that can be done: at states as
+    /// regular as any. Whether it did.
+    pub(crate) fn classical_step(&mut self, step: &StepOf<'_>, looseness: f64) -> bool {
+        let limits = StepLimits { pivots: self.largest_pivots.known(), looseness };
+        if !self.is_regular(self.nearness) || !self.evaluator.classical_step(step, limits) {
             return false;
         }
-        let Some(answer) = self.evaluator.inner_stages(step, self.largest_pivots.known()) else {
-            return false;
-        };
-        if !regular(answer.least_nearness) {
+        let Some(answer) = self.evaluator.last_step() else { return false };
+        if !self.is_regular(answer.least_nearness()) {
             return false;
         }
-        self.evaluations += INNER_STAGES as u64;
-        (self.nearness, self.rank_lost) = (answer.nearness, false);
-        self.largest_pivots.note(answer.grown_pivots);
-        let flat = answer.slopes.len() / INNER_STAGES;
-        for (slope, known) in slopes.iter_mut().zip(answer.slopes.chunks_exact(flat)) {
-            replace(slope, known);
-        }
+        self.evaluations += PARTS.len() as u64;
+        (self.nearness, self.rank_lost) = (answer.nearness(), false);
+        self.largest_pivots.note(answer.grown_pivots());
         true
+    }
+
+    /// Whether loops are as regular as any where generated code says so much of them; not if that is no number.
+    pub(crate) fn is_regular(&self, nearness: f64) -> bool {
+        nearness >= PROJECTED_STAGES.max(ROUNDED * self.singular_pivot)
     }
 
     /// Sees how regular a state is; no part of what a run costs.

@@ -11,8 +11,8 @@ mod inside;
 mod parameters;
 mod questions;
 mod sampled;
-mod stages;
-mod within;
+mod step;
+mod step_code;
 
 pub use answers::{Accelerations, Closure, Equations, Forward, LoopError, Rates};
 pub use closed::{CLOSED, CLOSED_AT_START};
@@ -22,10 +22,13 @@ use crate::description::Description;
 use crate::error::SetupError;
 use crate::flat_laws::in_words;
 use crate::layout::Layout;
+use crate::row_scales::RowScales;
 use crate::system::{CONTACT_MOTION, Entry, STATES, Sizes, System};
 use derivative::Derivative;
+pub(crate) use derivative::Known;
 use questions::Questions;
 use sampled::{Sampled, sampled};
+pub(crate) use step_code::StepLimits;
 
 /// A mechanism with fixed parameters and the storage to evaluate it.
 pub struct Evaluator<'a> {
@@ -36,9 +39,8 @@ pub struct Evaluator<'a> {
     kept: Vec<usize>,
     /// Of every row, whether its residual is one in radians.
     angular: Vec<bool>,
-    /// Longest length that each kept row of the Jacobian has had.
-    row_lengths: Vec<f64>,
-    row_scales: Vec<f64>,
+    /// Scales of the kept rows of the Jacobian.
+    rows: RowScales,
     /// Multipliers of all rows; those of kept rows are filled in when they are asked for.
     multipliers: Vec<f64>,
     /// Whether any of them may be other than zero for dropped rows.
@@ -94,10 +96,9 @@ impl<'a> Evaluator<'a> {
             description,
             layout,
             sizes,
-            kept,
             angular: description.rows.iter().map(|row| row.angular).collect(),
-            row_lengths: vec![0.0; sizes.rows],
-            row_scales: vec![1.0; sizes.rows],
+            rows: RowScales::new(kept.iter().map(|row| description.rows[*row].angular).collect()),
+            kept,
             multipliers: vec![0.0; sizes.all_rows],
             has_dropped: false,
             switches: description.switches(),
@@ -192,6 +193,31 @@ impl<'a> Evaluator<'a> {
     pub(crate) fn pivots(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
         self.evaluate(t, q, v);
         self.derivative.pivots()
+    }
+
+    /// The answer of [`Self::forward`] that is known for the state evaluated last, if it still holds.
+    pub(crate) fn known(&self) -> Option<Known> {
+        let holds = self.contacts_known_at.is_none() && !self.clearances.has_changed();
+        self.derivative.known().filter(|_| holds)
+    }
+
+    /// The same of the state where contacts were evaluated last; nothing without contacts.
+    pub(crate) fn known_of_contacts(&self) -> Option<Known> {
+        self.known().filter(|_| self.sizes.contacts > 0)
+    }
+
+    /// Whether this is still what [`Self::forward`] has for the state that it was known for.
+    pub(crate) fn holds(&mut self, known: Known) -> bool {
+        let holds = self.known() == Some(known);
+        if holds {
+            self.forget_dropped();
+        }
+        holds
+    }
+
+    /// Whether this is what [`Self::forward`] has for a state.
+    pub(crate) fn holds_at(&mut self, known: Known, state: (f64, &[f64], &[f64])) -> bool {
+        self.holds(known) && self.derivative.is_at(state)
     }
 
     fn evaluate(&mut self, t: f64, q: &[f64], v: &[f64]) {
@@ -313,9 +339,18 @@ impl<'a> Evaluator<'a> {
         let inputs = self.questions.inputs_at(t);
         let parts = [inputs, &time, q, v, accelerations, &self.multipliers, drives, wrenches];
         let mut left = &mut question[first..];
+        // One of them: no place is checked again.
+        let state = state % STATES;
         for part in parts {
             let (places, rest) = left.split_at_mut(part.len());
-            places.iter_mut().zip(part).for_each(|(place, value)| place[state] = *value);
+            let ((fours, others), (four_values, other_values)) =
+                (places.as_chunks_mut::<4>(), part.as_chunks::<4>());
+            for (places, values) in fours.iter_mut().zip(four_values) {
+                for i in 0..4 {
+                    places[i][state] = values[i];
+                }
+            }
+            others.iter_mut().zip(other_values).for_each(|(place, value)| place[state] = *value);
             left = rest;
         }
     }

@@ -7,7 +7,7 @@ use crate::clearance_joint::{Clearance, ClearanceState, Clearances, ContactState
 use crate::contact::{ImpactMemory, Support};
 use crate::joint_laws::Response;
 use crate::scalar::Scalar;
-use crate::system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, INNER_STAGES, Sizes, TOTALS};
+use crate::system::{CONTACT_MOTION, CONTACT_WRENCH, Entry, Sizes, TOTALS};
 
 /// Laws with all their constants, in words that are equal for equal laws alone: numbers are written to the last place.
 pub(crate) fn in_words(joints: &[Clearance]) -> String {
@@ -69,14 +69,14 @@ impl Next {
     }
 }
 
-/// Places in the question and in the answer of [`crate::InnerStages`], in order.
+/// Places in the question and in the answer of [`crate::ClassicalStep`], in order.
 #[derive(Clone, Debug)]
-pub(crate) struct StagesPlaces {
+pub(crate) struct StepPlaces {
     /// Behind the parameters: times of the stages in the middle and at the end [s], length of the step [s].
     pub(crate) middle: usize,
     pub(crate) end: usize,
     pub(crate) length: usize,
-    /// Coordinates and speeds where the step begins, and their slope there.
+    /// The flat state where the step begins, and its slope there.
     pub(crate) y: Range<usize>,
     pub(crate) slope: Range<usize>,
     /// [`CONTACT_MEMORY`] numbers of every joint with clearance; its radial clearance with its wear [m].
@@ -84,44 +84,67 @@ pub(crate) struct StagesPlaces {
     pub(crate) clearances: Range<usize>,
     /// The largest value that each loop pivot has had.
     pub(crate) pivots: Range<usize>,
-    /// The slopes of the flat state at the stages, one behind the other: from here on places of the answer.
-    pub(crate) slopes: Range<usize>,
-    /// How regular the loops are at the last stage; the least of all, no number if an answer is infinite or none, zero if a clearance is
-    /// another one.
+    /// Factor on how far loops may stay open.
+    pub(crate) looseness: usize,
+    /// From here on places of the answer, behind that of [`crate::WithLaws::derivative`] at the end: the flat state there, with quaternions
+    /// of unit length; its coordinates as the method has them.
+    pub(crate) next: Range<usize>,
+    pub(crate) raw: Range<usize>,
+    /// The slope at the last inner stage.
+    pub(crate) last_slope: Range<usize>,
+    /// Kinetic and potential energy at the end [J].
+    pub(crate) energy: Range<usize>,
+    /// How regular the loops are at the last inner stage; the least of all of these, no number if an answer is infinite or none, zero
+    /// if a clearance is another one; at the end, where the same is said.
     pub(crate) nearness: usize,
     pub(crate) least_nearness: usize,
-    /// The largest value that each pivot has had then.
+    pub(crate) nearness_at_end: usize,
+    /// 1 where residuals of positions and speeds are such that nothing has to be moved, else 0.
+    pub(crate) is_untouched: usize,
+    /// The largest value that each pivot has had after the inner stages.
     pub(crate) grown_pivots: Range<usize>,
+    /// Squares of the lengths of the Jacobian's rows at the end.
+    pub(crate) row_squares: Range<usize>,
+    /// Residuals of all rows at the end.
+    pub(crate) residuals: Range<usize>,
 }
 
-impl StagesPlaces {
+impl StepPlaces {
     pub(crate) fn new(sizes: &Sizes) -> Self {
-        let state = sizes.coordinates + sizes.speeds;
-        let (mut asked, mut told) = (Next(sizes.parameters), Next(0));
+        let flat = sizes.flat_state();
+        let (mut asked, mut told) = (Next(sizes.parameters), Next(LawsPlaces::new(sizes).all()));
         Self {
             middle: asked.one(),
             end: asked.one(),
             length: asked.one(),
-            y: asked.some(state),
-            slope: asked.some(state),
+            y: asked.some(flat),
+            slope: asked.some(flat),
             memory: asked.some(CONTACT_MEMORY * sizes.contacts),
             clearances: asked.some(sizes.contacts),
             pivots: asked.some(sizes.rows),
-            slopes: told.some(INNER_STAGES * sizes.flat_state()),
+            looseness: asked.one(),
+            next: told.some(flat),
+            raw: told.some(sizes.coordinates),
+            last_slope: told.some(flat),
+            energy: told.some(sizes.output(Entry::Energy)),
             nearness: told.one(),
             least_nearness: told.one(),
+            nearness_at_end: told.one(),
+            is_untouched: told.one(),
             grown_pivots: told.some(sizes.rows),
+            row_squares: told.some(sizes.rows),
+            residuals: told.some(sizes.all_rows),
         }
     }
 
     /// Length of the question.
     pub(crate) fn question(&self) -> usize {
-        self.pivots.end
+        self.looseness + 1
     }
 
     /// Length of the answer.
     pub(crate) fn answer(&self) -> usize {
-        self.grown_pivots.end
+        self.residuals.end
     }
 }
 

@@ -2,6 +2,11 @@
 //! I, 2nd ed., table II.1.2), in slices of the caller. In: a state and its slopes. Out: the next one. Never knows what is integrated.
 
 use crate::linear::combine;
+use crate::scalar::Scalar;
+
+/// Parts of a step at which its inner stages lie.
+#[cfg(feature = "std")]
+pub(crate) const PARTS: [f64; 3] = [0.5, 0.5, 1.0];
 
 /// Asked for a stage: its time and state in, slope out.
 pub(crate) type Slope<'s, E> = &'s mut dyn FnMut(f64, &[f64], &mut [f64]) -> Result<(), E>;
@@ -26,11 +31,17 @@ pub(crate) fn inner_stages<E>(
     slope(end, stage, k4)
 }
 
+/// A number of the state at the end of a step of `length` from `y`, by its slopes at all stages.
+#[inline(always)]
+pub(crate) fn end_of_step<T: Scalar>(y: T, length: T, [a, b, c, d]: [T; 4]) -> T {
+    y + length / T::constant(6.0) * (a + T::constant(2.0) * (b + c) + d)
+}
+
 /// Writes the state at the end of a step from `y`, by the slopes of all stages.
 pub(crate) fn advance(next: &mut [f64], y: &[f64], step: f64, slopes: [&[f64]; 4]) {
-    let (n, sixth) = (next.len(), step / 6.0);
+    let n = next.len();
     let (y, [a, b, c, d]) = (&y[..n], slopes.map(|slope| &slope[..n]));
     for i in 0..n {
-        next[i] = y[i] + sixth * ((a[i] + d[i]) + 2.0 * (b[i] + c[i]));
+        next[i] = end_of_step(y[i], step, [a[i], b[i], c[i], d[i]]);
     }
 }

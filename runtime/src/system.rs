@@ -229,35 +229,32 @@ pub trait WithLaws<T: Scalar> {
     /// If a slice is shorter than the plan says, or the scratch slice than [`Self::workspace`].
     fn derivative(&self, question: &[T], answer: &mut [T], workspace: &mut [T]);
 
-    /// The stages within a step, if there is code for them. Code may be written when it is asked for first: who takes a step or two
-    /// does without.
-    fn inner_stages(&self) -> Option<&dyn InnerStages<T>> {
+    /// Whole steps, if there is code for them. Code may be written when it is asked for first: who takes a step or two does without.
+    fn classical_step(&self) -> Option<&dyn ClassicalStep<T>> {
         None
     }
 }
 
-/// Stages within a step of the classical Runge-Kutta method.
-pub const INNER_STAGES: usize = 3;
-
-/// A step whose inner stages are asked for.
+/// A step of the classical Runge-Kutta method that is asked for.
 #[derive(Clone, Copy, Debug)]
-pub struct StagesOf<'s> {
+pub struct StepOf<'s> {
     /// Times in its middle and at its end [s].
     pub times: [f64; 2],
     /// Its length [s].
     pub length: f64,
     /// The flat state where it begins.
     pub y: &'s [f64],
-    /// Its slope there, coordinates and speeds first.
+    /// Its slope there.
     pub slope: &'s [f64],
 }
 
-/// All [`INNER_STAGES`] of a step in one call, the laws of contact inside: see `StepPlan::stages`, in whose bits it answers.
-pub trait InnerStages<T: Scalar> {
+/// A step of the classical Runge-Kutta method in one call, the laws of contact inside: see `StepPlan::classical_step`, in whose bits it
+/// answers.
+pub trait ClassicalStep<T: Scalar> {
     /// Length of the scratch slice that [`Self::evaluate`] wants.
     fn workspace(&self) -> usize;
 
-    /// Evaluates the stages. Does not allocate.
+    /// Evaluates the step. Does not allocate.
     ///
     /// # Panics
     /// If a slice is shorter than the plan says, or the scratch slice than [`Self::workspace`].

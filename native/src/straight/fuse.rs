@@ -18,8 +18,8 @@ pub(crate) enum Part {
     Conclude,
     /// [`linkwear_runtime::WithLaws::derivative`].
     Derivative,
-    /// [`linkwear_runtime::InnerStages`].
-    Stages,
+    /// [`linkwear_runtime::ClassicalStep`].
+    WholeStep,
 }
 
 impl Part {
@@ -29,7 +29,7 @@ impl Part {
             Self::Attempt => "attempt",
             Self::Conclude => "conclude",
             Self::Derivative => "derivative",
-            Self::Stages => "stages",
+            Self::WholeStep => "whole_step",
         }
     }
 }
@@ -53,14 +53,14 @@ pub(crate) fn fuse(tapes: &dyn Tapes, plan: &StepPlan, part: Part) -> Result<Low
         Part::Attempt => plan.question(),
         Part::Conclude => plan.arena(),
         Part::Derivative => plan.derivative_question(),
-        Part::Stages => plan.stages_question(),
+        Part::WholeStep => plan.classical_step_question(),
     };
     let inputs = inputs(&recorder, count);
     let outputs = match part {
         Part::Attempt => plan.attempt(evaluate, &inputs),
         Part::Conclude => plan.conclude(evaluate, &inputs),
         Part::Derivative => plan.derivative(evaluate, &inputs),
-        Part::Stages => plan.stages(evaluate, &inputs),
+        Part::WholeStep => plan.classical_step(evaluate, &inputs),
     };
     let (first, outputs) = (recorder.ids(answers.into_inner()), recorder.ids(outputs));
     Ok(Lowered { graph: recorder.into_graph(), inputs: count, first, outputs })

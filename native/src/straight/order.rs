@@ -73,23 +73,11 @@ fn depth_first(lowered: &Lowered) -> Vec<Id> {
 /// Takes from the next operations of an order the one whose arguments are ready first; with `crowded` values alive or
 /// more, the next one, or one that ends a life.
 fn interleaved(graph: &Graph, first: &[Id], crowded: usize) -> Vec<Id> {
-    let mut readers = vec![0_u32; graph.len()];
-    for id in first {
-        for argument in computed(graph, *id) {
-            readers[argument as usize] += 1;
-        }
-    }
-    let mut state = State { ready: vec![None; graph.len()], readers, alive: 0, begun: 0 };
-    let mut all: Vec<Waiting> = first.iter().map(|id| Waiting::new(graph, *id)).collect();
-    let mut rest = 0..all.len() as u32;
-    // By their places: short, for they move up as others are taken.
-    let mut window: Vec<u32> = rest.by_ref().take(WINDOW).collect();
+    let mut state = State::new(graph, first);
     let mut order = Vec::with_capacity(first.len());
-    while let Some((place, start)) = state.choose(&mut all, &window, crowded) {
-        let chosen = &all[window.remove(place) as usize];
-        state.take(graph, chosen, start);
-        order.push(chosen.id);
-        window.extend(rest.next());
+    while let Some(chosen) = state.choose(crowded) {
+        state.take(graph, first, chosen);
+        order.push(first[chosen.place as usize]);
     }
     order
 }
@@ -99,37 +87,33 @@ fn computed(graph: &Graph, id: Id) -> impl Iterator<Item = Id> {
     graph.node(id).distinct_arguments().filter(|argument| !graph.node(*argument).operation.is_leaf())
 }
 
-/// An operation in the window. It is looked at many times: what is asked of it lies close together.
-struct Waiting {
-    id: Id,
-    /// Its computed arguments.
-    arguments: [Id; 3],
-    count: usize,
-    /// The cycle at which they are all there; none while one is not ordered.
-    ready: Option<u32>,
+/// An operation of the window whose arguments are all ordered. It is looked at many times: what is asked of it lies close together.
+#[derive(Clone, Copy)]
+struct Ready {
+    /// Its place in the first order.
+    place: u32,
+    /// The cycle at which its arguments are all there.
+    at: u32,
+    /// Its computed arguments, by their places.
+    arguments: [u32; 3],
+    count: u32,
 }
 
-impl Waiting {
-    fn new(graph: &Graph, id: Id) -> Self {
-        let (mut arguments, mut count) = ([0; 3], 0);
-        for (place, argument) in arguments.iter_mut().zip(computed(graph, id)) {
-            *place = argument;
-            count += 1;
-        }
-        Self { id, arguments, count, ready: None }
-    }
-
-    fn arguments(&self) -> &[Id] {
-        &self.arguments[..self.count]
-    }
-}
-
-/// What is known of the operations that are ordered already.
+/// What is known of the operations that are ordered already, and of those that may be next. Operations go by their places.
 struct State {
-    /// The cycle at which each result is there; none before it is ordered.
-    ready: Vec<Option<u32>>,
-    /// Operations that still read each value.
+    /// The computed arguments of each, and how many these are; of these, how many are not ordered yet; the cycle at which the others are
+    /// all there.
+    arguments: Vec<([u32; 3], u32)>,
+    missing: Vec<u32>,
+    at: Vec<u32>,
+    /// Who reads each value, one behind the other, and where those of each begin.
     readers: Vec<u32>,
+    readers_of: Vec<u32>,
+    /// Operations that still read each value.
+    left: Vec<u32>,
+    /// Where the window ends, and those in it that can be next, by their places.
+    window_end: u32,
+    ready: Vec<Ready>,
     /// Values that are still read.
     alive: usize,
     /// Operations that could have begun so far, in all cycles.
@@ -137,41 +121,102 @@ struct State {
 }
 
 impl State {
-    /// The place in the window of what runs next, and the cycle at which it can; none if the window is empty.
-    fn choose(&self, all: &mut [Waiting], window: &[u32], crowded: usize) -> Option<(usize, u32)> {
+    fn new(graph: &Graph, first: &[Id]) -> Self {
+        let mut places = vec![0_u32; graph.len()];
+        (0..).zip(first).for_each(|(place, id)| places[*id as usize] = place);
+        let mut arguments = vec![([0; 3], 0_u32); first.len()];
+        let mut left = vec![0_u32; first.len()];
+        for ((list, count), id) in arguments.iter_mut().zip(first) {
+            for (slot, argument) in list.iter_mut().zip(computed(graph, *id)) {
+                *slot = places[argument as usize];
+                left[*slot as usize] += 1;
+                *count += 1;
+            }
+        }
+        let mut readers_of = vec![0];
+        readers_of.extend(left.iter().scan(0, |sum, count| {
+            *sum += count;
+            Some(*sum)
+        }));
+        let mut next = readers_of.clone();
+        let mut readers = vec![0; readers_of.last().map_or(0, |all| *all as usize)];
+        for (place, (list, count)) in (0..).zip(&arguments) {
+            for argument in &list[..*count as usize] {
+                let slot = &mut next[*argument as usize];
+                readers[*slot as usize] = place;
+                *slot += 1;
+            }
+        }
+        let missing = arguments.iter().map(|(_, count)| *count).collect();
+        let at = vec![0; first.len()];
+        let (window_end, ready) = (0, Vec::with_capacity(WINDOW));
+        let mut state =
+            Self { arguments, missing, at, readers, readers_of, left, window_end, ready, alive: 0, begun: 0 };
+        (0..WINDOW).for_each(|_| state.widen());
+        state
+    }
+
+    /// Takes one more operation into the window, if there is one.
+    fn widen(&mut self) {
+        let place = self.window_end;
+        if (place as usize) < self.arguments.len() {
+            self.window_end += 1;
+            if self.missing[place as usize] == 0 {
+                self.ready.push(self.ready_at(place));
+            }
+        }
+    }
+
+    fn ready_at(&self, place: u32) -> Ready {
+        let (arguments, count) = self.arguments[place as usize];
+        Ready { place, at: self.at[place as usize], arguments, count }
+    }
+
+    /// What runs next; none if the window is empty.
+    fn choose(&mut self, crowded: usize) -> Option<Ready> {
         let now = self.begun / PER_CYCLE;
         let is_crowded = self.alive >= crowded;
         let mut best: Option<(usize, u32)> = None;
-        for (place, at) in window.iter().enumerate() {
-            let waiting = &mut all[*at as usize];
-            let ends_a_life = |argument: &Id| self.readers[*argument as usize] == 1;
-            if is_crowded && place > 0 && !waiting.arguments().iter().any(ends_a_life) {
+        // The first of the window comes before all that could need it.
+        for (index, ready) in self.ready.iter().enumerate() {
+            let ends_a_life = |argument: &u32| self.left[*argument as usize] == 1;
+            let arguments = &ready.arguments[..ready.count as usize];
+            if is_crowded && index > 0 && !arguments.iter().any(ends_a_life) {
                 continue;
             }
-            if waiting.ready.is_none() {
-                let ready = |argument: &Id| self.ready[*argument as usize];
-                waiting.ready = waiting.arguments().iter().try_fold(0, |last, id| Some(ready(id)?.max(last)));
-            }
-            let Some(start) = waiting.ready.map(|ready| ready.max(now)) else { continue };
+            let start = ready.at.max(now);
             if best.is_none_or(|(_, earliest)| start < earliest) {
-                best = Some((place, start));
+                best = Some((index, start));
             }
             if start == now {
                 break;
             }
         }
-        best
+        best.map(|(index, start)| Ready { at: start, ..self.ready.remove(index) })
     }
 
-    fn take(&mut self, graph: &Graph, chosen: &Waiting, start: u32) {
-        self.begun = (self.begun + 1).max(start * PER_CYCLE);
-        self.ready[chosen.id as usize] = Some(start + latency(graph.node(chosen.id).operation));
-        for argument in chosen.arguments() {
-            let readers = &mut self.readers[*argument as usize];
-            *readers -= 1;
-            self.alive -= usize::from(*readers == 0);
+    fn take(&mut self, graph: &Graph, first: &[Id], chosen: Ready) {
+        self.begun = (self.begun + 1).max(chosen.at * PER_CYCLE);
+        for argument in &chosen.arguments[..chosen.count as usize] {
+            let left = &mut self.left[*argument as usize];
+            *left -= 1;
+            self.alive -= usize::from(*left == 0);
         }
-        self.alive += usize::from(self.readers[chosen.id as usize] > 0);
+        let place = chosen.place as usize;
+        self.alive += usize::from(self.left[place] > 0);
+        self.widen();
+        let done = chosen.at + latency(graph.node(first[place]).operation);
+        for reader in self.readers_of[place]..self.readers_of[place + 1] {
+            let reader = self.readers[reader as usize];
+            let at = &mut self.at[reader as usize];
+            *at = done.max(*at);
+            self.missing[reader as usize] -= 1;
+            if self.missing[reader as usize] == 0 && reader < self.window_end {
+                let ready = self.ready_at(reader);
+                let index = self.ready.partition_point(|known| known.place < reader);
+                self.ready.insert(index, ready);
+            }
+        }
     }
 }
 

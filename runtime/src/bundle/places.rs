@@ -23,7 +23,7 @@ pub(crate) struct Places {
     pub(crate) memory: Range<usize>,
     /// The largest value that each loop pivot has had before the step.
     pub(crate) pivots: Range<usize>,
-    /// Square of the longest length that each row of the Jacobian has had.
+    /// The largest square of a length of each row of the Jacobian that is no longer than the longest so far.
     pub(crate) row_squares: Range<usize>,
     /// Factor on how far loops may stay open.
     pub(crate) looseness: usize,
@@ -51,12 +51,14 @@ pub(crate) struct Places {
     pub(crate) least_nearness: usize,
     /// 1 where residuals of positions and speeds are such that nothing has to be moved, else 0.
     pub(crate) is_untouched: usize,
-    /// 1 where a row of the Jacobian may be longer than ever, else 0.
+    /// 1 where a row of the Jacobian is longer than ever, else 0.
     pub(crate) has_longer_row: usize,
     /// How far loops are open at the end [m], [rad], no number if that is none.
     pub(crate) open: [usize; 2],
-    /// Answer of [`crate::Entry::Closure`] at the end.
-    pub(crate) closure: Range<usize>,
+    /// Squares of the lengths of the Jacobian's rows at the end.
+    pub(crate) squares_at_end: Range<usize>,
+    /// Residuals of all rows there.
+    pub(crate) residuals: Range<usize>,
     /// Length of all.
     pub(crate) all: usize,
 }
@@ -93,7 +95,8 @@ impl Places {
             is_untouched: next.one(),
             has_longer_row: next.one(),
             open: [next.one(), next.one()],
-            closure: next.some(sizes.output(Entry::Closure)),
+            squares_at_end: next.some(rows),
+            residuals: next.some(sizes.all_rows),
             all: 0,
         };
         places.all = next.0;

@@ -9,6 +9,8 @@ pub(super) struct LargestPivots {
     values: Vec<f64>,
     /// Pivots up to here are noise.
     noise: f64,
+    /// How often either has changed.
+    changes: u64,
     /// During a look aside.
     is_aside: bool,
     /// Both before it, if they have changed since.
@@ -19,7 +21,7 @@ pub(super) struct LargestPivots {
 impl LargestPivots {
     pub(super) fn new(count: usize) -> Self {
         let values = vec![0.0; count];
-        Self { aside_values: values.clone(), values, noise: 0.0, is_aside: false, aside: None }
+        Self { aside_values: values.clone(), values, noise: 0.0, changes: 0, is_aside: false, aside: None }
     }
 
     /// Keeps the largest value of each and says how regular they are.
@@ -34,6 +36,11 @@ impl LargestPivots {
             return self.regularity(pivots);
         }
         smallest
+    }
+
+    /// How often they have changed.
+    pub(super) fn changes(&self) -> u64 {
+        self.changes
     }
 
     /// The largest values.
@@ -75,6 +82,7 @@ impl LargestPivots {
         if let Some(noise) = self.aside.take() {
             self.values.copy_from_slice(&self.aside_values);
             self.noise = noise;
+            self.changes += 1;
         }
     }
 
@@ -86,5 +94,6 @@ impl LargestPivots {
 
     fn find_noise(&mut self) {
         self.noise = noise_of(&self.values);
+        self.changes += 1;
     }
 }

@@ -5,10 +5,14 @@
 use super::answers::Forward;
 use super::inside::Inside;
 use super::questions::Questions;
-use super::stages::StagesAnswer;
+use super::step_code::{StepAnswer, StepLimits};
 use crate::clearance_joint::Clearances;
-use crate::linear::replace;
-use crate::system::{CONTACT_MOTION, Entry, Sizes, StagesOf, WORKS, WithLaws};
+use crate::linear::{replace, same_bits};
+use crate::system::{CONTACT_MOTION, Entry, Sizes, StepOf, WORKS, WithLaws};
+
+/// An answer of [`Entry::Derivative`], by a number that no other of the same evaluator has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Known(u64);
 
 /// The last answer of [`Entry::Derivative`] with its input.
 pub(super) struct Derivative<'a> {
@@ -27,6 +31,10 @@ pub(super) struct Derivative<'a> {
     has_contacts: bool,
     /// Whether the output is the system's answer to the input.
     has_answer: bool,
+    /// How often the output was written.
+    answers: u64,
+    /// Kinetic and potential energy at the state of the input [J], if they came with it.
+    energy: Option<[f64; 2]>,
 }
 
 impl<'a> Derivative<'a> {
@@ -45,6 +53,8 @@ impl<'a> Derivative<'a> {
             has_motions: false,
             has_contacts: false,
             has_answer: false,
+            answers: 0,
+            energy: None,
         }
     }
 
@@ -81,12 +91,16 @@ impl<'a> Derivative<'a> {
     /// Other values of the parameters.
     pub(super) fn set_parameters(&mut self, parameters: &[f64]) {
         self.input[..parameters.len()].copy_from_slice(parameters);
+        if let Some(inside) = &mut self.inside {
+            inside.step.set_parameters(parameters);
+        }
         self.forget();
     }
 
     /// Contacts were put in place of those at the state of the input.
     pub(super) fn forget(&mut self) {
         (self.has_motions, self.has_contacts, self.has_answer) = (false, false, false);
+        self.energy = None;
     }
 
     /// Evaluates everything at a state.
@@ -106,6 +120,7 @@ impl<'a> Derivative<'a> {
             let output = &mut self.output[..self.sizes.output(Entry::Derivative)];
             system.evaluate(Entry::Derivative, &self.input, output, workspace);
             self.has_answer = true;
+            self.answers += 1;
         }
     }
 
@@ -113,6 +128,7 @@ impl<'a> Derivative<'a> {
     fn answer_inside(&mut self, clearances: &mut Clearances) -> bool {
         let Some(inside) = &mut self.inside else { return false };
         let done = inside.derivative(&mut self.input[..self.wrenches_end], &mut self.output, clearances);
+        self.answers += 1;
         if done {
             replace(&mut self.input[self.state_end..self.wrenches_end], clearances.wrenches());
             (self.has_contacts, self.has_answer) = (true, true);
@@ -120,31 +136,68 @@ impl<'a> Derivative<'a> {
         done
     }
 
+    /// The output, if it is the answer to the input.
+    pub(super) fn known(&self) -> Option<Known> {
+        self.has_answer.then_some(Known(self.answers))
+    }
+
     /// Whether it was there, so that what is known still holds.
     fn move_to(&mut self, questions: &mut Questions<'_>, (t, q, v): (f64, &[f64], &[f64])) -> bool {
-        let state = &mut self.input[self.sizes.parameters..self.state_end];
-        let (time, state) = state.split_at_mut(1);
-        let (coordinates, speeds) = state.split_at_mut(q.len());
-        let same = [replace(time, &[t]), replace(coordinates, q), replace(speeds, v)];
-        if (self.has_contacts || self.has_answer) && same == [true; 3] {
+        if (self.has_contacts || self.has_answer) && self.is_at((t, q, v)) {
             return true;
         }
+        put(&mut self.input[self.sizes.parameters..self.state_end], (t, q, v));
         let inputs = questions.inputs.clone();
         if !inputs.is_empty() {
             self.input[inputs].copy_from_slice(questions.inputs_at(t));
         }
-        (self.has_motions, self.has_contacts, self.has_answer) = (false, false, false);
+        self.forget();
         false
     }
 
-    /// See [`super::Evaluator::inner_stages`].
-    pub(super) fn inner_stages(
+    /// Whether this is the state of the input.
+    pub(super) fn is_at(&self, (t, q, v): (f64, &[f64], &[f64])) -> bool {
+        let (time, state) = self.input[self.sizes.parameters..self.state_end].split_at(1);
+        let (coordinates, speeds) = state.split_at(q.len());
+        time[0].to_bits() == t.to_bits() && same_bits(coordinates, q) && same_bits(speeds, v)
+    }
+
+    /// Energies at the state of the input, if they came with it.
+    pub(super) fn energy(&self) -> Option<[f64; 2]> {
+        self.energy
+    }
+
+    /// See [`super::Evaluator::classical_step`].
+    pub(super) fn classical_step(
         &mut self,
         parameters: &[f64],
         clearances: &Clearances,
-        step: (&StagesOf<'_>, &[f64]),
-    ) -> Option<StagesAnswer<'_>> {
-        self.inside.as_mut()?.stages.evaluate(parameters, clearances, step)
+        step: (&StepOf<'_>, StepLimits<'_>),
+    ) -> bool {
+        let Some(inside) = &mut self.inside else { return false };
+        let done = inside.step.evaluate(parameters, clearances, step, &mut self.output);
+        self.has_answer &= !done;
+        self.answers += u64::from(done);
+        done
+    }
+
+    /// See [`super::Evaluator::last_step`].
+    pub(super) fn last_step(&self) -> Option<StepAnswer<'_>> {
+        self.inside.as_ref().map(|inside| inside.step.answer(&self.output))
+    }
+
+    /// See [`super::Evaluator::go_to_end`].
+    pub(super) fn go_to_end(&mut self, clearances: &mut Clearances, t: f64) {
+        let Some(inside) = &self.inside else { return };
+        let step = inside.step.answer(&self.output);
+        inside.take_contacts(&self.output, clearances);
+        let (q, rest) = step.next().split_at(self.sizes.coordinates);
+        let (state, wrenches) = self.input[self.sizes.parameters..self.wrenches_end]
+            .split_at_mut(self.state_end - self.sizes.parameters);
+        put(state, (t, q, &rest[..self.sizes.speeds]));
+        replace(wrenches, clearances.wrenches());
+        (self.has_motions, self.has_contacts, self.has_answer) = (false, true, true);
+        self.energy = Some(step.energy());
     }
 
     /// Accelerations, multipliers, drive forces, pivots.
@@ -170,6 +223,7 @@ impl<'a> Derivative<'a> {
     /// All of it, to be written to: it is then no answer of the system any more.
     pub(super) fn forward_mut(&mut self) -> &mut [f64] {
         self.has_answer = false;
+        self.answers += 1;
         &mut self.output[self.sizes.coordinates..][..self.sizes.output(Entry::ForwardDynamics)]
     }
 
@@ -180,4 +234,13 @@ impl<'a> Derivative<'a> {
         let powers = self.sizes.output(Entry::Derivative) - WORKS;
         self.has_answer.then(|| (state, [self.output[powers], self.output[powers + 1]]))
     }
+}
+
+/// Writes time, coordinates and speeds one behind the other.
+fn put(state: &mut [f64], (t, q, v): (f64, &[f64], &[f64])) {
+    let (time, state) = state.split_at_mut(1);
+    let (coordinates, speeds) = state.split_at_mut(q.len());
+    time[0] = t;
+    replace(coordinates, q);
+    replace(speeds, v);
 }

@@ -1,7 +1,7 @@
 //! A derivative by one call of code that has the laws of contact inside. In: a state, what contacts remember. Out: the derivative,
 //! the contacts. Never knows which states follow each other.
 
-use super::stages::Stages;
+use super::step_code::StepCode;
 use crate::clearance_joint::{Clearances, ContactState};
 use crate::flat_laws::{CONTACT_MEMORY, LawsPlaces, contact_state, write_memories};
 use crate::system::{Entry, Sizes, TOTALS, WithLaws};
@@ -14,7 +14,7 @@ pub(super) struct Inside<'a> {
     memories_end: usize,
     places: LawsPlaces,
     workspace: Vec<f64>,
-    pub(super) stages: Stages<'a>,
+    pub(super) step: StepCode<'a>,
 }
 
 impl<'a> Inside<'a> {
@@ -26,7 +26,7 @@ impl<'a> Inside<'a> {
             memories_end: state_end + CONTACT_MEMORY * sizes.contacts,
             places: LawsPlaces::new(&sizes),
             workspace: vec![0.0; code.workspace()],
-            stages: Stages::new(&sizes, code),
+            step: StepCode::new(&sizes, code),
         }
     }
 
@@ -52,9 +52,14 @@ impl<'a> Inside<'a> {
         if !known.into_iter().all(is_known) {
             return false;
         }
+        self.take_contacts(answer, clearances);
+        true
+    }
+
+    /// The contacts become those of an answer.
+    pub(super) fn take_contacts(&self, answer: &[f64], clearances: &mut Clearances) {
         let (totals, _) = answer[self.places.totals.clone()].as_chunks::<TOTALS>();
         let (contacts, _) = answer[self.places.contacts.clone()].as_chunks();
         clearances.take_over(|joint, before| contact_state(before, totals[joint], contacts[joint]));
-        true
     }
 }

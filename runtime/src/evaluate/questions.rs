@@ -89,11 +89,6 @@ impl<'a> Questions<'a> {
         output
     }
 
-    /// The last answer, for one found elsewhere to be put in its place.
-    pub(super) fn last_mut(&mut self, entry: Entry) -> &mut [f64] {
-        &mut self.outputs[entry as usize]
-    }
-
     /// The last answer.
     pub(super) fn last(&self, entry: Entry) -> &[f64] {
         &self.outputs[entry as usize]

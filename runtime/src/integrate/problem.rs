@@ -1,7 +1,18 @@
 //! What an explicit method integrates.
 
 use crate::error::RunError;
-use crate::system::{INNER_STAGES, StagesOf};
+use crate::system::StepOf;
+
+/// What came of a step that was asked for in one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stepped {
+    /// Nothing: its stages have to be evaluated one by one.
+    OneByOne,
+    /// The state at its end, which has to be projected.
+    Raw,
+    /// The state at its end on the constraints; the derivative there is known.
+    Whole,
+}
 
 /// Writes the derivative at each of several times and states, one behind the other.
 pub(crate) fn one_by_one(
@@ -36,11 +47,16 @@ pub trait Problem {
         one_by_one((times, states), derivatives, |t, y, derivative| self.derivative(t, y, derivative))
     }
 
-    /// Writes the slopes of the stages within a step of the classical Runge-Kutta method, if it can evaluate them at once. Whether it
-    /// did: if not, they are asked for one by one.
-    fn inner_stages(&mut self, step: &StagesOf<'_>, slopes: [&mut [f64]; INNER_STAGES]) -> bool {
-        let _ = (step, slopes);
-        false
+    /// Writes the end of a step of the classical Runge-Kutta method, and the slope at its last inner stage where that is asked for, if it
+    /// can evaluate them at once.
+    fn classical_step(
+        &mut self,
+        step: &StepOf<'_>,
+        end: &mut [f64],
+        last_slope: Option<&mut [f64]>,
+    ) -> Stepped {
+        let _ = (step, end, last_slope);
+        Stepped::OneByOne
     }
 
     /// Puts the result `y` of a step from `before` onto the constraints.

@@ -1,9 +1,9 @@
 //! The classical Runge-Kutta method of order 4, fixed step. In: a problem and a state. Out: the next one, on its constraints.
 
-use super::problem::Problem;
+use super::problem::{Problem, Stepped};
 use crate::error::RunError;
 use crate::runge_kutta::{advance, inner_stages};
-use crate::system::StagesOf;
+use crate::system::StepOf;
 
 /// Storage of the four stages.
 #[derive(Clone, Debug)]
@@ -34,15 +34,18 @@ impl Rk4 {
         problem.derivative(t, y, k1)?;
         problem.reached(t, y, k1);
         let times = [t + 0.5 * step, t + step];
-        let stages = StagesOf { times, length: step, y, slope: k1 };
-        if !problem.inner_stages(&stages, [&mut *k2, &mut *k3, &mut *k4]) {
+        let of = StepOf { times, length: step, y, slope: k1 };
+        let stepped = problem.classical_step(&of, stage, None);
+        if stepped == Stepped::OneByOne {
             let slopes = (&*k1, [&mut *k2, &mut *k3, &mut *k4]);
             inner_stages((times, step), y, stage, slopes, &mut |t, y, slope| {
                 problem.derivative(t, y, slope)
             })?;
+            advance(stage, y, step, [k1, k2, k3, k4]);
         }
-        advance(stage, y, step, [k1, k2, k3, k4]);
-        problem.project(t + step, y, stage)?;
+        if stepped != Stepped::Whole {
+            problem.project(t + step, y, stage)?;
+        }
         y.copy_from_slice(stage);
         Ok(())
     }

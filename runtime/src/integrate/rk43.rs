@@ -7,25 +7,16 @@
 
 use super::adaptive::{MadeElsewhere, Method, Step};
 use super::dense::Cubics;
-use super::problem::Problem;
+use super::problem::{Problem, Stepped};
 use super::step_control::SAFETY;
 use crate::error::RunError;
-use crate::runge_kutta::inner_stages;
+use crate::runge_kutta::{advance, inner_stages};
 use crate::scalar::Scalar;
-use crate::system::StagesOf;
+use crate::system::StepOf;
 
 /// Weight of the difference of the last two slopes in the error: that of an embedded solution with a weight of 1/10 for
 /// the slope at the end.
 const WEIGHT: f64 = 0.1;
-
-/// Parts of a step at which its inner stages lie.
-pub(crate) const PARTS: [f64; 3] = [0.5, 0.5, 1.0];
-
-/// The end of a step, by the slopes of its stages.
-#[inline(always)]
-pub(crate) fn step_of<T: Scalar>(y: T, length: T, [a, b, c, d]: [T; 4]) -> T {
-    y + length / T::constant(6.0) * (a + T::constant(2.0) * (b + c) + d)
-}
 
 /// Error per second, by the slopes of the last stage and at the end.
 #[inline(always)]
@@ -46,15 +37,17 @@ pub(crate) fn growth_of<T: Scalar>(last_error: T, error: T) -> T {
 /// Storage of the stages.
 #[derive(Clone, Debug)]
 pub struct Rk43 {
-    /// Four stages, and the slope at the end.
-    slopes: [Vec<f64>; 5],
+    /// At its begin and at its end.
+    slopes: [Vec<f64>; 2],
+    /// Of the stages within it.
+    inner: [Vec<f64>; 3],
     cubics: Cubics,
 }
 
 impl MadeElsewhere for Rk43 {
     fn know(&mut self, [begin, end]: [&[f64]; 2]) {
         self.slopes[0].copy_from_slice(begin);
-        self.slopes[4].copy_from_slice(end);
+        self.slopes[1].copy_from_slice(end);
     }
 }
 
@@ -65,7 +58,12 @@ impl Method for Rk43 {
     const SHARE: f64 = 3.0;
 
     fn new(dimension: usize) -> Self {
-        Self { slopes: std::array::from_fn(|_| vec![0.0; dimension]), cubics: Cubics::new(dimension) }
+        let slope = || vec![0.0; dimension];
+        Self {
+            slopes: [slope(), slope()],
+            inner: [slope(), slope(), slope()],
+            cubics: Cubics::new(dimension),
+        }
     }
 
     fn begin(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Result<(), RunError> {
@@ -83,20 +81,20 @@ impl Method for Rk43 {
         (next, error): (&mut [f64], &mut [f64]),
     ) -> Result<(), RunError> {
         let length = step.length;
-        let [first, b, c, d, _] = &mut self.slopes;
+        let ([a, end], [b, c, d]) = (&mut self.slopes, &mut self.inner);
         let times = [step.t + 0.5 * length, step.end];
-        let stages = StagesOf { times, length, y: step.y, slope: first };
-        if !problem.inner_stages(&stages, [&mut *b, &mut *c, &mut *d]) {
-            let slopes = (&**first, [&mut **b, &mut **c, &mut **d]);
+        let of = StepOf { times, length, y: step.y, slope: a };
+        let stepped = problem.classical_step(&of, next, Some(d));
+        if stepped == Stepped::OneByOne {
+            let slopes = (&**a, [&mut **b, &mut **c, &mut **d]);
             inner_stages((times, length), step.y, next, slopes, &mut |t, y, slope| {
                 problem.derivative(t, y, slope)
             })?;
+            advance(next, step.y, length, [a, b, c, d]);
         }
-        let [a, b, c, d, end] = &mut self.slopes;
-        for (i, (next, y)) in next.iter_mut().zip(step.y).enumerate() {
-            *next = step_of(*y, length, [a[i], b[i], c[i], d[i]]);
+        if stepped != Stepped::Whole {
+            problem.project(step.end, step.y, next)?;
         }
-        problem.project(step.end, step.y, next)?;
         problem.derivative(step.end, next, end)?;
         for ((error, end), last) in error.iter_mut().zip(end).zip(d) {
             *error = error_of(*last, *end);
@@ -109,12 +107,12 @@ impl Method for Rk43 {
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {
-        self.cubics.set(step, next, [&self.slopes[0], &self.slopes[4]]);
+        self.cubics.set(step, next, [&self.slopes[0], &self.slopes[1]]);
         self.take_back();
     }
 
     fn take_back(&mut self) {
-        self.slopes.swap(0, 4);
+        self.slopes.swap(0, 1);
     }
 
     fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {

@@ -32,4 +32,4 @@ pub use orthogonal::Orthogonal;
 pub use shortest::Shortest;
 #[cfg(feature = "std")]
 pub use sparse_qr::SparseQr;
-pub use vector::{add_scaled, combine, dot, is_finite, largest, largest_of, replace};
+pub use vector::{add_scaled, combine, dot, is_finite, largest, largest_of, replace, same_bits};

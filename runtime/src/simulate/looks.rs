@@ -56,8 +56,9 @@ impl<'a> Looks<'a> {
     ) {
         evaluator.write_question((t, q, v), self.count, &mut self.question);
         let of_contacts = channels.values(evaluator.clearances().contacts());
+        let lane = self.count % STATES;
         for (column, value) in self.columns[self.generated..].iter_mut().zip(of_contacts) {
-            column[self.count] = value;
+            column[lane] = value;
         }
         self.count_in(t, collector);
     }

@@ -169,7 +169,7 @@ impl<'a> Sampler<'a> {
         } else {
             self.observe(motion, begin, state)?;
         }
-        self.look(motion, begin, state)
+        self.look(motion, (begin, state), None)
     }
 
     /// Evaluates the columns of a sample; `state` is put onto the constraints first, if it is not there.
@@ -216,6 +216,7 @@ impl<'a> Sampler<'a> {
         self.statistics.steps += 1;
         let length = t - self.reached.0;
         let energies = motion.energies(t, state);
+        let known = motion.dynamics.evaluator.known_of_contacts();
         let (_, speeds, _) = motion.split(state);
         let shown = Shown { t, length, energies, speeds, turning: &self.turning };
         let contacts = motion.dynamics.evaluator.clearances().contacts();
@@ -232,7 +233,7 @@ impl<'a> Sampler<'a> {
         self.guard.check_step(motion, (t, tried), &mut self.ledger)?;
         self.reached.0 = t;
         self.reached.1.copy_from_slice(state);
-        self.look(motion, t, state)
+        self.look(motion, (t, state), known)
     }
 
     /// Observes without changing anything of the run, nor what is told about its cost.

@@ -20,7 +20,7 @@ pub(super) fn act_behind(
     let acted = motion.dynamics.evaluator.has_samplers() && act(motion, Some(from), t, state)?;
     if acted {
         // Columns jump here: both sides count among their extremes.
-        sampler.look(motion, t, state)?;
+        sampler.look(motion, (t, state), None)?;
     }
     Ok(acted)
 }

@@ -129,10 +129,10 @@ impl<'a, const N: usize> Lanes<'a, N> {
     }
 
     /// Takes over how long rows of the Jacobian have been.
-    pub(super) fn put_row_lengths(&mut self, lane: usize, evaluator: &Evaluator<'_>) {
+    pub(super) fn put_row_squares(&mut self, lane: usize, evaluator: &Evaluator<'_>) {
         let squares = &mut self.arena.all_mut()[self.places.row_squares.clone()];
-        for (square, length) in squares.iter_mut().zip(evaluator.row_lengths()) {
-            square[lane] = length * length;
+        for (place, square) in squares.iter_mut().zip(evaluator.rows().squares()) {
+            place[lane] = *square;
         }
     }
 
@@ -171,15 +171,14 @@ impl<'a, const N: usize> Lanes<'a, N> {
         self.answer.all()[self.conclusion.nearness][lane]
     }
 
-    /// Whether a row of its Jacobian there may be longer than ever.
+    /// Whether a row of its Jacobian there is longer than ever.
     pub(super) fn has_longer_row(&self, lane: usize) -> bool {
         self.arena.all()[self.places.has_longer_row][lane] == 1.0
     }
 
-    /// That Jacobian.
-    pub(super) fn jacobian(&self, lane: usize) -> impl Iterator<Item = f64> {
-        let first = self.places.closure.start + self.sizes.all_rows + self.sizes.rows;
-        self.arena.all()[first..self.places.closure.end].iter().map(move |value| value[lane])
+    /// Squares of the lengths of that Jacobian's rows.
+    pub(super) fn squares_at_end(&self, lane: usize) -> impl Iterator<Item = f64> {
+        self.arena.all()[self.places.squares_at_end.clone()].iter().map(move |value| value[lane])
     }
 
     /// The end of a lane's step is another one.

@@ -8,7 +8,8 @@ use super::outcome::TurnOutcome;
 use crate::clearance_joint::ContactState;
 use crate::error::RunError;
 use crate::evaluate::{CLOSED, LoopError};
-use crate::integrate::{Adaptive, PARTS, Problem, Rk43};
+use crate::integrate::{Adaptive, Problem, Rk43};
+use crate::runge_kutta::PARTS;
 use crate::simulate::motion::ConstrainedMotion;
 use crate::simulate::schedule::Schedule;
 use crate::simulate::settings::Integrator;
@@ -90,7 +91,7 @@ impl<'a> Trajectory<'a> {
         lanes.put_pivots(lane, &motion.dynamics);
         let numbers = || vec![0.0; turn.state.len()];
         let (between, slopes) = (numbers(), [numbers(), numbers()]);
-        lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
+        lanes.put_row_squares(lane, &motion.dynamics.evaluator);
         let residuals = vec![0.0; lanes.sizes.all_rows];
         let (quiet, is_end_known, after) = (0, false, After::Nothing);
         self.0 = Some(UnderWay { turn, method, between, slopes, residuals, quiet, is_end_known, after });
@@ -128,8 +129,8 @@ impl<'a> Trajectory<'a> {
         let is_closed = LoopError { metres, radians, worst: 0 }.part(motion.arm) <= CLOSED;
         under_way.is_end_known = !(is_untouched && is_closed);
         if is_untouched && lanes.has_longer_row(lane) {
-            motion.dynamics.evaluator.take_over_rows(lanes.jacobian(lane));
-            lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
+            motion.dynamics.evaluator.take_over_rows(lanes.squares_at_end(lane));
+            lanes.put_row_squares(lane, &motion.dynamics.evaluator);
         }
         if !under_way.is_end_known {
             return true;
@@ -141,7 +142,7 @@ impl<'a> Trajectory<'a> {
             return false;
         }
         lanes.put_end(lane, &next[..motion.first_integral()]);
-        lanes.put_row_lengths(lane, &motion.dynamics.evaluator);
+        lanes.put_row_squares(lane, &motion.dynamics.evaluator);
         true
     }
 
@@ -277,7 +278,7 @@ impl UnderWay<'_> {
         if self.is_end_known {
             return;
         }
-        lanes.get(lane, lanes.places().closure.start, &mut self.residuals);
+        lanes.get(lane, lanes.places().residuals.start, &mut self.residuals);
         motion.take_over_loops(&self.residuals);
         lanes.get(lane, lanes.places().next.start, self.method.ends().1);
     }

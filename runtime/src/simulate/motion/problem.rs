@@ -5,9 +5,11 @@ use super::{
     is_energy,
 };
 use crate::error::RunError;
-use crate::integrate::{Problem, one_by_one};
+use crate::evaluate::CLOSED;
+use crate::integrate::{Problem, Stepped, one_by_one};
+use crate::linear::replace;
 use crate::simulate::slopes::Slopes;
-use crate::system::{INNER_STAGES, StagesOf};
+use crate::system::StepOf;
 use crate::tables::Motion;
 
 impl Problem for ConstrainedMotion<'_> {
@@ -60,8 +62,29 @@ impl Problem for ConstrainedMotion<'_> {
         outcome
     }
 
-    fn inner_stages(&mut self, step: &StagesOf<'_>, slopes: [&mut [f64]; INNER_STAGES]) -> bool {
-        self.dynamics.inner_stages(step, slopes)
+    fn classical_step(
+        &mut self,
+        step: &StepOf<'_>,
+        end: &mut [f64],
+        last_slope: Option<&mut [f64]>,
+    ) -> Stepped {
+        if !self.dynamics.classical_step(step, self.looseness) {
+            return Stepped::OneByOne;
+        }
+        let Some(answer) = self.dynamics.evaluator.last_step() else { return Stepped::OneByOne };
+        if let Some(slope) = last_slope {
+            replace(slope, answer.last_slope());
+        }
+        end.copy_from_slice(answer.next());
+        let error = self.dynamics.evaluator.loop_error_of(answer.residuals());
+        let is_closed = answer.is_untouched() && error.part(self.arm) <= CLOSED;
+        if is_closed && self.dynamics.is_regular(answer.nearness_at_end()) {
+            self.projector.take_over(error);
+            self.dynamics.evaluator.go_to_end(step.times[1]);
+            return Stepped::Whole;
+        }
+        end[..self.coordinates].copy_from_slice(answer.raw());
+        Stepped::Raw
     }
 
     fn project(&mut self, t: f64, before: &[f64], y: &mut [f64]) -> Result<(), RunError> {

@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use super::Sampler;
 use crate::error::RunError;
+use crate::evaluate::Known;
 use crate::integrate::Problem;
 use crate::simulate::extremes::Collector;
 use crate::simulate::looks::Looks;
@@ -58,19 +59,23 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    /// Notes the extremes of all columns at a state of the motion.
+    /// Notes the extremes of all columns at a state of the motion; `known`: what was known of it.
     pub(in crate::simulate) fn look(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
-        t: f64,
-        state: &[f64],
+        (t, state): (f64, &[f64]),
+        known: Option<Known>,
     ) -> Result<(), RunError> {
         self.count_look(motion);
         let Some(extremes) = &mut self.extremes else { return Ok(()) };
         if let Some(looks) = &mut self.looks {
             let (q, v, _) = motion.split(state);
             let aside = motion.dynamics.aside();
-            let seen = motion.dynamics.accelerate(t, q, v);
+            let holds = known.map_or(Ok(false), |known| motion.dynamics.accelerate_known(known, (t, q, v)));
+            let seen = match holds {
+                Ok(false) => motion.dynamics.accelerate(t, q, v),
+                seen => seen.map(drop),
+            };
             let waits = seen.is_ok() && !motion.dynamics.is_rank_lost();
             if waits {
                 looks.look(&mut motion.dynamics.evaluator, (t, q, v), &self.columns, extremes);
@@ -109,7 +114,7 @@ impl<'a> Sampler<'a> {
             {
                 looks.look_at(&motion.dynamics.evaluator, (lane, *t), extremes);
             } else {
-                self.look(motion, *t, state)?;
+                self.look(motion, (*t, state), None)?;
             }
         }
         Ok(())
