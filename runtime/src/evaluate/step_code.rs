@@ -5,7 +5,7 @@ use crate::clearance_joint::Clearances;
 use crate::flat_laws::{StepPlaces, write_memories};
 use crate::system::{ClassicalStep, Sizes, StepOf, WithLaws};
 
-/// Steps that a run takes before code is written for them: to write it takes as long as some thousand derivatives.
+/// Steps that a run takes before code is written for them: to write it takes as long as some thousand steps.
 const FIRST_STEPS: u32 = 500;
 
 /// What may change what a step is, besides where it begins.
