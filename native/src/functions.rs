@@ -2,7 +2,7 @@
 
 use std::thread::available_parallelism;
 
-use linkwear_runtime::{Entry, StepPlan};
+use linkwear_runtime::{Entry, StageSum, StepPlan};
 use linkwear_tape::{Tape, Tapes, side_by_side};
 
 #[cfg(target_arch = "aarch64")]
@@ -83,8 +83,8 @@ impl Functions {
     }
 
     /// A whole step: see [`linkwear_runtime::ClassicalStep`].
-    pub(crate) fn of_whole_step(tapes: &dyn Tapes, plan: &StepPlan) -> Result<Self, Refusal> {
-        Self::of_parts::<1>(tapes, plan, &[Part::WholeStep])
+    pub(crate) fn of_whole_step(tapes: &dyn Tapes, plan: &StepPlan, sum: StageSum) -> Result<Self, Refusal> {
+        Self::of_parts::<1>(tapes, plan, &[Part::WholeStep(sum)])
     }
 
     fn of_parts<const LANES: usize>(

@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock};
 
 use linkwear_runtime::clearance_joint::Clearance;
 use linkwear_runtime::{
-    ClassicalStep, Description, Entry, STATES, SideBySide, Sizes, StepPlan, System, WithLaws,
+    ClassicalStep, Description, Entry, STATES, SideBySide, Sizes, StageSum, StepPlan, System, WithLaws,
 };
 use linkwear_tape::{Tape, Tapes};
 
@@ -76,7 +76,8 @@ struct WholeStep {
     tapes: Arc<dyn Tapes>,
     plan: StepPlan,
     /// Written when it is asked for first: the code is four times as long as that of a derivative.
-    functions: OnceLock<Option<Functions>>,
+    /// One for each order of its sum: a run takes one of them.
+    functions: [OnceLock<Option<Functions>>; 2],
 }
 
 /// What runs ask at several states at once. Written when it is asked for first: short runs do not.
@@ -155,7 +156,7 @@ impl Native {
         let tapes = Arc::clone(&self.tapes);
         let functions = Arc::new(Functions::of_laws(&*tapes, &plan)?);
         let words = plan.laws().into();
-        let step = Arc::new(WholeStep { tapes, plan, functions: OnceLock::new() });
+        let step = Arc::new(WholeStep { tapes, plan, functions: Default::default() });
         Ok(Self { laws: Some(Laws { functions, words, step }), ..self })
     }
 }
@@ -199,9 +200,13 @@ impl WithLaws<f64> for Laws {
         self.functions.run(0, question, answer, workspace);
     }
 
-    fn classical_step(&self) -> Option<&dyn ClassicalStep<f64>> {
-        let WholeStep { tapes, plan, functions } = &*self.step;
-        let written = functions.get_or_init(|| Functions::of_whole_step(&**tapes, plan).ok());
+    fn classical_step(&self, sum: StageSum) -> Option<&dyn ClassicalStep<f64>> {
+        let WholeStep { tapes, plan, functions: [ends_first, in_turn] } = &*self.step;
+        let functions = match sum {
+            StageSum::EndsFirst => ends_first,
+            StageSum::InTurn => in_turn,
+        };
+        let written = functions.get_or_init(|| Functions::of_whole_step(&**tapes, plan, sum).ok());
         written.as_ref().map(|written| written as &dyn ClassicalStep<f64>)
     }
 }

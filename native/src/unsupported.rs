@@ -2,7 +2,7 @@
 
 use std::convert::Infallible;
 
-use linkwear_runtime::{Entry, StepPlan};
+use linkwear_runtime::{Entry, StageSum, StepPlan};
 use linkwear_tape::{Tape, Tapes};
 
 use crate::refusal::Refusal;
@@ -26,7 +26,7 @@ impl Functions {
         Self::new::<1>(&[])
     }
 
-    pub(crate) fn of_whole_step(_: &dyn Tapes, _: &StepPlan) -> Result<Self, Refusal> {
+    pub(crate) fn of_whole_step(_: &dyn Tapes, _: &StepPlan, _: StageSum) -> Result<Self, Refusal> {
         Self::new::<1>(&[])
     }
 

@@ -5,8 +5,8 @@ use std::path::Path;
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
 use linkwear_native::{Native, NativeBundle, Refusal};
 use linkwear_runtime::{
-    Description, Entry, Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StepPlan, System,
-    TOTALS, TurnRunner, Watch, WithLaws, simulate,
+    Description, Entry, Integrator, Run, SINGULAR_PIVOT, Settings, Simulation, Span, StageSum, StepPlan,
+    System, TOTALS, TurnRunner, Watch, simulate,
 };
 
 const METHODS: [Integrator; 2] =
@@ -83,7 +83,7 @@ fn steps_have_the_bits_of_their_plan() {
     for name in ["mechanisms/rssr.toml", "mechanisms/rssr_ball_wear.toml"] {
         let mechanism = compiled(name);
         let Some([_, inside]) = both(&mechanism) else { return };
-        let code = inside.laws_inside().and_then(WithLaws::classical_step).expect("code of steps");
+        let laws = inside.laws_inside().expect("laws inside");
         let interpreter = mechanism.interpreter();
         let sizes = System::<f64>::sizes(&interpreter);
         let plan = StepPlan::new(mechanism.description(), sizes).expect("laws");
@@ -120,12 +120,16 @@ fn steps_have_the_bits_of_their_plan() {
             + sizes.output(Entry::Energy);
         let answer = |question: &[f64]| {
             assert_eq!(question.len(), plan.classical_step_question());
-            let expected = plan.classical_step(&evaluate, question);
-            let (mut found, mut workspace) = (vec![0.0; expected.len()], vec![0.0; code.workspace()]);
-            code.evaluate(question, &mut found, &mut workspace);
-            // What is no number has any sign.
-            let bits = |x: &f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
-            assert!(expected.iter().map(bits).eq(found.iter().map(bits)), "{name}");
+            let [_, found] = [StageSum::EndsFirst, StageSum::InTurn].map(|sum| {
+                let code = laws.classical_step(sum).expect("code of steps");
+                let expected = plan.classical_step(&evaluate, question, sum);
+                let (mut found, mut workspace) = (vec![0.0; expected.len()], vec![0.0; code.workspace()]);
+                code.evaluate(question, &mut found, &mut workspace);
+                // What is no number has any sign.
+                let bits = |x: &f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
+                assert!(expected.iter().map(bits).eq(found.iter().map(bits)), "{name}");
+                found
+            });
             // Behind the energies: regularity at the last inner stage; the least of these, that at the end.
             [found[flags + 1], found[flags + 2]]
         };

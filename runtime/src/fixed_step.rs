@@ -15,7 +15,7 @@ use crate::linear::is_finite;
 use crate::manifold::groups;
 use crate::regularity::{PROJECTED_STAGES, note_pivots};
 use crate::runge_kutta::{advance, inner_stages};
-use crate::system::{Entry, Sizes, System, TOTALS, WORKS};
+use crate::system::{Entry, Sizes, StageSum, System, TOTALS, WORKS};
 use crate::tables::{AllTables, SAMPLE, Start, Tables};
 use storage::{ANSWER, Storage};
 
@@ -191,7 +191,7 @@ impl<'m, S: System<f64>> FixedStep<'m, S> {
             nearness = self.slope(parameters, t, y, slope)?;
             Ok(())
         })?;
-        advance(stage, y, length, [k1, k2, k3, k4]);
+        advance(StageSum::EndsFirst, stage, y, length, [k1, k2, k3, k4]);
         let end = t + length;
         let moved = self.put_on((parameters, end), stage, nearness)?;
         if !is_finite(stage) {

@@ -98,8 +98,8 @@ pub use joint_laws::{JointLaws, Response};
 pub use scalar::Scalar;
 pub use sincos::sin_cos;
 pub use system::{
-    CONTACT_MOTION, CONTACT_WRENCH, ClassicalStep, Entry, STATES, SideBySide, Sizes, StepOf, System, TOTALS,
-    WORKS, WithLaws,
+    CONTACT_MOTION, CONTACT_WRENCH, ClassicalStep, Entry, STATES, SideBySide, Sizes, StageSum, StepOf,
+    System, TOTALS, WORKS, WithLaws,
 };
 pub use tables::{
     AllTables, CoefficientRow, ContactInfo, GammaRates, InputRole, JournalWear, MissionRow, Motion,

@@ -3,6 +3,7 @@
 
 use crate::linear::combine;
 use crate::scalar::Scalar;
+use crate::system::StageSum;
 
 /// Parts of a step at which its inner stages lie.
 #[cfg(feature = "std")]
@@ -33,15 +34,21 @@ pub(crate) fn inner_stages<E>(
 
 /// A number of the state at the end of a step of `length` from `y`, by its slopes at all stages.
 #[inline(always)]
-pub(crate) fn end_of_step<T: Scalar>(y: T, length: T, [a, b, c, d]: [T; 4]) -> T {
-    y + length / T::constant(6.0) * (a + T::constant(2.0) * (b + c) + d)
+pub(crate) fn end_of_step<T: Scalar>(sum: StageSum, y: T, length: T, [a, b, c, d]: [T; 4]) -> T {
+    let within = T::constant(2.0) * (b + c);
+    let all = match sum {
+        StageSum::EndsFirst => (a + d) + within,
+        StageSum::InTurn => (a + within) + d,
+    };
+    y + length / T::constant(6.0) * all
 }
 
 /// Writes the state at the end of a step from `y`, by the slopes of all stages.
-pub(crate) fn advance(next: &mut [f64], y: &[f64], step: f64, slopes: [&[f64]; 4]) {
+#[inline]
+pub(crate) fn advance(sum: StageSum, next: &mut [f64], y: &[f64], step: f64, slopes: [&[f64]; 4]) {
     let n = next.len();
     let (y, [a, b, c, d]) = (&y[..n], slopes.map(|slope| &slope[..n]));
     for i in 0..n {
-        next[i] = end_of_step(y[i], step, [a[i], b[i], c[i], d[i]]);
+        next[i] = end_of_step(sum, y[i], step, [a[i], b[i], c[i], d[i]]);
     }
 }

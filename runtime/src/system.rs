@@ -230,14 +230,26 @@ pub trait WithLaws<T: Scalar> {
     fn derivative(&self, question: &[T], answer: &mut [T], workspace: &mut [T]);
 
     /// Whole steps, if there is code for them. Code may be written when it is asked for first: who takes a step or two does without.
-    fn classical_step(&self) -> Option<&dyn ClassicalStep<T>> {
+    fn classical_step(&self, sum: StageSum) -> Option<&dyn ClassicalStep<T>> {
+        let _ = sum;
         None
     }
+}
+
+/// The order in which the slopes of a step's four stages are summed, on which its last digits depend.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StageSum {
+    /// Those at both ends first, as [`crate::integrate::Rk4`] does.
+    EndsFirst,
+    /// One stage after the other, as [`crate::integrate::Rk43`] does.
+    InTurn,
 }
 
 /// A step of the classical Runge-Kutta method that is asked for.
 #[derive(Clone, Copy, Debug)]
 pub struct StepOf<'s> {
+    /// How its slopes are summed.
+    pub sum: StageSum,
     /// Times in its middle and at its end [s].
     pub times: [f64; 2],
     /// Its length [s].

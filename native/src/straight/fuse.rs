@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 
-use linkwear_runtime::{Entry, Evaluate, StepPlan};
+use linkwear_runtime::{Entry, Evaluate, StageSum, StepPlan};
 use linkwear_tape::{Tapes, verify};
 
 use super::lower::Lowered;
@@ -19,7 +19,7 @@ pub(crate) enum Part {
     /// [`linkwear_runtime::WithLaws::derivative`].
     Derivative,
     /// [`linkwear_runtime::ClassicalStep`].
-    WholeStep,
+    WholeStep(StageSum),
 }
 
 impl Part {
@@ -29,7 +29,7 @@ impl Part {
             Self::Attempt => "attempt",
             Self::Conclude => "conclude",
             Self::Derivative => "derivative",
-            Self::WholeStep => "whole_step",
+            Self::WholeStep(_) => "whole_step",
         }
     }
 }
@@ -53,14 +53,14 @@ pub(crate) fn fuse(tapes: &dyn Tapes, plan: &StepPlan, part: Part) -> Result<Low
         Part::Attempt => plan.question(),
         Part::Conclude => plan.arena(),
         Part::Derivative => plan.derivative_question(),
-        Part::WholeStep => plan.classical_step_question(),
+        Part::WholeStep(_) => plan.classical_step_question(),
     };
     let inputs = inputs(&recorder, count);
     let outputs = match part {
         Part::Attempt => plan.attempt(evaluate, &inputs),
         Part::Conclude => plan.conclude(evaluate, &inputs),
         Part::Derivative => plan.derivative(evaluate, &inputs),
-        Part::WholeStep => plan.classical_step(evaluate, &inputs),
+        Part::WholeStep(sum) => plan.classical_step(evaluate, &inputs, sum),
     };
     let (first, outputs) = (recorder.ids(answers.into_inner()), recorder.ids(outputs));
     Ok(Lowered { graph: recorder.into_graph(), inputs: count, first, outputs })

@@ -4,7 +4,7 @@
 use super::inner::{Begin, Inner};
 use super::plan::{Evaluate, StepPlan, none_of};
 use crate::scalar::Scalar;
-use crate::system::Entry;
+use crate::system::{Entry, StageSum};
 
 impl StepPlan {
     /// The inner stages of a step, its end before it is put onto the constraints, and whether it has to be.
@@ -16,6 +16,7 @@ impl StepPlan {
             memory: &question[at.memory.clone()],
             times: [one(at.begin) + T::constant(0.5) * length, one(at.end)],
             length,
+            sum: StageSum::InTurn,
             y: &question[at.y.clone()],
             slope: &question[at.slope.clone()],
             pivots: &question[at.pivots.clone()],

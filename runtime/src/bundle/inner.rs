@@ -6,6 +6,7 @@ use crate::regularity::note_pivots;
 use crate::row_scales::square_of;
 use crate::runge_kutta::{PARTS, end_of_step};
 use crate::scalar::Scalar;
+use crate::system::StageSum;
 use crate::tolerances::tolerances;
 
 /// Where a step begins.
@@ -16,6 +17,8 @@ pub(super) struct Begin<'b, T> {
     /// Times in its middle and at its end [s], its length [s].
     pub(super) times: [T; 2],
     pub(super) length: T,
+    /// How the slopes of its stages are summed.
+    pub(super) sum: StageSum,
     /// The flat state and its slope.
     pub(super) y: &'b [T],
     pub(super) slope: &'b [T],
@@ -46,7 +49,7 @@ impl StepPlan {
         evaluate: Evaluate<'_, T>,
         begin: &Begin<'_, T>,
     ) -> Inner<T> {
-        let Begin { known, memory, times: [middle, end], length, y, .. } = *begin;
+        let Begin { known, memory, times: [middle, end], length, sum, y, .. } = *begin;
         let (mut slopes, mut pivots) = (vec![begin.slope.to_vec()], begin.pivots.to_vec());
         let (mut nearness, mut least, mut nothing) = (T::constant(1.0), T::constant(1.0), T::constant(0.0));
         let mut clearances = Vec::new();
@@ -62,7 +65,7 @@ impl StepPlan {
             clearances.extend(slope.clearances);
             slopes.push(slope.state);
         }
-        let end = |i: usize| end_of_step(y[i], length, std::array::from_fn(|stage| slopes[stage][i]));
+        let end = |i: usize| end_of_step(sum, y[i], length, std::array::from_fn(|stage| slopes[stage][i]));
         let mut next: Vec<T> = (0..y.len()).map(end).collect();
         // Slopes that are infinite or none leave no finite end.
         nothing = none_of(nothing, &next);

@@ -6,7 +6,7 @@ use super::plan::{Evaluate, StepPlan, none_of};
 use crate::flat_laws::StepPlaces;
 use crate::regularity::note_pivots;
 use crate::scalar::Scalar;
-use crate::system::Entry;
+use crate::system::{Entry, StageSum};
 
 impl StepPlan {
     /// A step of the classical Runge-Kutta method. Out: the answer of [`Self::derivative`] at the end, with quaternions of unit length; the
@@ -17,7 +17,12 @@ impl StepPlan {
     /// parameters, times in the middle and at the end [s], length of the step [s]; the flat state where it begins, its slope; of every
     /// joint as [`Self::derivative`] wants it, then its radial clearance with its wear [m] as known; the largest pivots so far; the
     /// factor on how far loops may stay open.
-    pub fn classical_step<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
+    pub fn classical_step<T: Scalar>(
+        &self,
+        evaluate: Evaluate<'_, T>,
+        question: &[T],
+        sum: StageSum,
+    ) -> Vec<T> {
         let (at, one) = (StepPlaces::new(&self.sizes), |place: usize| question[place]);
         let (end, memory) = (one(at.end), &question[at.memory.clone()]);
         let begin = Begin {
@@ -25,6 +30,7 @@ impl StepPlan {
             memory,
             times: [one(at.middle), end],
             length: one(at.length),
+            sum,
             y: &question[at.y.clone()],
             slope: &question[at.slope.clone()],
             pivots: &question[at.pivots.clone()],

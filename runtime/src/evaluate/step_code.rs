@@ -3,7 +3,7 @@
 
 use crate::clearance_joint::Clearances;
 use crate::flat_laws::{StepPlaces, write_memories};
-use crate::system::{ClassicalStep, Sizes, StepOf, WithLaws};
+use crate::system::{ClassicalStep, Sizes, StageSum, StepOf, WithLaws};
 
 /// Steps that a run takes before code is written for them: to write it takes as long as some thousand steps.
 const FIRST_STEPS: u32 = 500;
@@ -87,7 +87,8 @@ pub(super) struct StepCode<'a> {
     laws: &'a dyn WithLaws<f64>,
     /// Steps that went without.
     first: u32,
-    code: Option<&'a dyn ClassicalStep<f64>>,
+    /// It, and how it sums.
+    code: Option<(&'a dyn ClassicalStep<f64>, StageSum)>,
     places: StepPlaces,
     question: Vec<f64>,
     workspace: Vec<f64>,
@@ -111,11 +112,14 @@ impl<'a> StepCode<'a> {
         if self.first < FIRST_STEPS {
             self.first += 1;
             if self.first == FIRST_STEPS {
-                self.prepare(parameters, answer);
+                self.prepare(step.sum, parameters, answer);
             }
             return false;
         }
-        let (Some(code), at) = (self.code, &self.places) else { return false };
+        let (Some((code, sum)), at) = (self.code, &self.places) else { return false };
+        if step.sum != sum {
+            return false;
+        }
         let question = &mut self.question[..];
         [question[at.middle], question[at.end]] = step.times;
         question[at.length] = step.length;
@@ -144,9 +148,9 @@ impl<'a> StepCode<'a> {
     }
 
     #[cold]
-    fn prepare(&mut self, parameters: &[f64], answer: &mut Vec<f64>) {
-        self.code = self.laws.classical_step();
-        if let Some(code) = self.code {
+    fn prepare(&mut self, sum: StageSum, parameters: &[f64], answer: &mut Vec<f64>) {
+        self.code = self.laws.classical_step(sum).map(|code| (code, sum));
+        if let Some((code, _)) = self.code {
             self.question = vec![0.0; self.places.question()];
             self.question[..self.places.middle].copy_from_slice(parameters);
             answer.resize(self.places.answer(), 0.0);

@@ -3,7 +3,9 @@
 use super::problem::{Problem, Stepped};
 use crate::error::RunError;
 use crate::runge_kutta::{advance, inner_stages};
-use crate::system::StepOf;
+use crate::system::{StageSum, StepOf};
+
+const SUM: StageSum = StageSum::EndsFirst;
 
 /// Storage of the four stages.
 #[derive(Clone, Debug)]
@@ -34,14 +36,14 @@ impl Rk4 {
         problem.derivative(t, y, k1)?;
         problem.reached(t, y, k1);
         let times = [t + 0.5 * step, t + step];
-        let of = StepOf { times, length: step, y, slope: k1 };
+        let of = StepOf { sum: SUM, times, length: step, y, slope: k1 };
         let stepped = problem.classical_step(&of, stage, None);
         if stepped == Stepped::OneByOne {
             let slopes = (&*k1, [&mut *k2, &mut *k3, &mut *k4]);
             inner_stages((times, step), y, stage, slopes, &mut |t, y, slope| {
                 problem.derivative(t, y, slope)
             })?;
-            advance(stage, y, step, [k1, k2, k3, k4]);
+            advance(SUM, stage, y, step, [k1, k2, k3, k4]);
         }
         if stepped != Stepped::Whole {
             problem.project(t + step, y, stage)?;

@@ -12,7 +12,9 @@ use super::step_control::SAFETY;
 use crate::error::RunError;
 use crate::runge_kutta::{advance, inner_stages};
 use crate::scalar::Scalar;
-use crate::system::StepOf;
+use crate::system::{StageSum, StepOf};
+
+const SUM: StageSum = StageSum::InTurn;
 
 /// Weight of the difference of the last two slopes in the error: that of an embedded solution with a weight of 1/10 for
 /// the slope at the end.
@@ -83,14 +85,14 @@ impl Method for Rk43 {
         let length = step.length;
         let ([a, end], [b, c, d]) = (&mut self.slopes, &mut self.inner);
         let times = [step.t + 0.5 * length, step.end];
-        let of = StepOf { times, length, y: step.y, slope: a };
+        let of = StepOf { sum: SUM, times, length, y: step.y, slope: a };
         let stepped = problem.classical_step(&of, next, Some(d));
         if stepped == Stepped::OneByOne {
             let slopes = (&**a, [&mut **b, &mut **c, &mut **d]);
             inner_stages((times, length), step.y, next, slopes, &mut |t, y, slope| {
                 problem.derivative(t, y, slope)
             })?;
-            advance(next, step.y, length, [a, b, c, d]);
+            advance(SUM, next, step.y, length, [a, b, c, d]);
         }
         if stepped != Stepped::Whole {
             problem.project(step.end, step.y, next)?;
