@@ -194,8 +194,11 @@ impl<'a> Derivative<'a> {
         let (q, rest) = step.next().split_at(self.sizes.coordinates);
         let (state, wrenches) = self.input[self.sizes.parameters..self.wrenches_end]
             .split_at_mut(self.state_end - self.sizes.parameters);
-        put(state, (t, q, &rest[..self.sizes.speeds]));
-        replace(wrenches, clearances.wrenches());
+        // Written long ago: it may be read at once, however it was written.
+        state[0] = t;
+        state[1..=q.len()].copy_from_slice(q);
+        state[1 + q.len()..].copy_from_slice(&rest[..self.sizes.speeds]);
+        wrenches.copy_from_slice(clearances.wrenches());
         (self.has_motions, self.has_contacts, self.has_answer) = (false, true, true);
         self.energy = Some(step.energy());
     }
