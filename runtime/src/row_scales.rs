@@ -2,16 +2,14 @@
 
 use crate::scalar::Scalar;
 
-/// Keeps the longest length that each row has had; whether one has grown.
-pub(crate) fn note_lengths(lengths: &mut [f64], jacobian: &[f64], columns: usize) -> bool {
-    let mut has_grown = false;
+/// Keeps the longest length that each row has had.
+pub(crate) fn note_lengths(lengths: &mut [f64], jacobian: &[f64], columns: usize) {
     for (length, row) in lengths.iter_mut().zip(jacobian.chunks_exact(columns.max(1))) {
         let now = Scalar::sqrt(square_of(row));
         if now > *length {
-            (*length, has_grown) = (now, true);
+            *length = now;
         }
     }
-    has_grown
 }
 
 /// Square of the length of a row, in four running sums.
@@ -28,7 +26,7 @@ pub(crate) fn square_of<T: Scalar>(row: &[T]) -> T {
 
 /// The largest square whose root is not above a length: rows of larger ones are longer.
 #[cfg(feature = "std")]
-pub(crate) fn largest_square(length: f64) -> f64 {
+fn largest_square(length: f64) -> f64 {
     if !length.is_finite() {
         return length;
     }

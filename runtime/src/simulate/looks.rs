@@ -56,9 +56,8 @@ impl<'a> Looks<'a> {
     ) {
         evaluator.write_question((t, q, v), self.count, &mut self.question);
         let of_contacts = channels.values(evaluator.clearances().contacts());
-        let lane = self.count % STATES;
         for (column, value) in self.columns[self.generated..].iter_mut().zip(of_contacts) {
-            column[lane] = value;
+            column[self.count] = value;
         }
         self.count_in(t, collector);
     }
