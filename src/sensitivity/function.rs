@@ -3,6 +3,8 @@
 use linkwear_codegen::tape::{self, Tape};
 use linkwear_native::Routine;
 
+use super::tangents::Varied;
+
 /// A tape with its tangent in `N` lanes, a direction in each.
 pub(super) struct Function<const N: usize> {
     code: Code<N>,
@@ -46,10 +48,19 @@ impl<const N: usize> Function<N> {
         self.input[place] = [value; N];
     }
 
-    /// Writes the tangent of an input.
-    pub(super) fn put_tangent(&mut self, place: usize, tangent: [f64; N]) {
+    /// Writes an input that varies.
+    pub(super) fn put_varied(&mut self, place: usize, one: &Varied<N>) {
+        self.put(place, one.value);
         let inputs = self.input.len() / 2;
-        self.input[inputs + place] = tangent;
+        self.input[inputs + place] = one.tangents;
+    }
+
+    /// Writes inputs from a place on as another function has answered: values and tangents.
+    pub(super) fn put_many(&mut self, first: usize, (values, tangents): (&[[f64; N]], &[[f64; N]])) {
+        let half = self.input.len() / 2;
+        let (inputs, its_tangents) = self.input.split_at_mut(half);
+        inputs[first..][..values.len()].copy_from_slice(values);
+        its_tangents[first..][..tangents.len()].copy_from_slice(tangents);
     }
 
     /// Runs it. Out: values and tangents.

@@ -10,6 +10,7 @@ mod paths;
 mod result;
 mod roots;
 mod settled;
+mod stages;
 mod study;
 mod tangents;
 mod turn;

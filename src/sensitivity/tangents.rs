@@ -23,15 +23,8 @@ impl<const N: usize> Varied<N> {
 
     /// What a rate adds up to in a time that varies too.
     pub(super) fn over(&self, time: &Self) -> Self {
-        Self::ZERO.moved(1.0, time, self)
-    }
-
-    /// Where a rate leads in a part of a step, whose length varies too.
-    pub(super) fn moved(&self, part: f64, length: &Self, rate: &Self) -> Self {
-        let step = part * length.value;
-        let tangents = std::array::from_fn(|lane| {
-            self.tangents[lane] + step * rate.tangents[lane] + part * length.tangents[lane] * rate.value
-        });
-        Self { value: self.value + step * rate.value, tangents }
+        let tangents =
+            std::array::from_fn(|lane| time.value * self.tangents[lane] + time.tangents[lane] * self.value);
+        Self { value: time.value * self.value, tangents }
     }
 }

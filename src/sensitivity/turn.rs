@@ -10,6 +10,7 @@ use linkwear_runtime::{Dual, Layout, Scalar, Sizes};
 
 use super::function::Function;
 use super::roots::SMOOTH;
+use super::stages::{DONE, Places, stages};
 use super::tangents::Varied;
 use super::varied::{ANSWER, MEMORY};
 use super::worn::{Part, Step, Wear};
@@ -65,6 +66,9 @@ pub(super) struct TooLong;
 /// Turns of a mechanism.
 pub(super) struct Turns<const N: usize> {
     motion: Function<N>,
+    /// What follows from a step's begin, and where it is told of it.
+    stages: Function<N>,
+    at: Places,
     pub(super) closure: Function<N>,
     pub(super) sizes: Sizes,
     pub(super) layout: Layout,
@@ -81,22 +85,25 @@ impl<const N: usize> Turns<N> {
         (layout, kept): (Layout, Vec<usize>),
         directions: &Directions<N>,
     ) -> Self {
+        let (at, of_stages) = (Places::of(motion), stages(motion, &sizes));
         let (mut motion, mut closure) = (Function::new(motion), Function::new(closure));
+        let mut stages = Function::new(&of_stages);
         let state = sizes.coordinates + sizes.speeds;
         let (of_motion, of_closure) =
             (sizes.parameters + 1 + state + MEMORY * sizes.contacts, sizes.parameters + 1 + state);
         let put = |function: &mut Function<N>, first: usize, all: &[Varied<N>]| {
             for (place, one) in (first..).zip(all) {
-                function.put(place, one.value);
-                function.put_tangent(place, one.tangents);
+                function.put_varied(place, one);
             }
         };
-        for function in [&mut motion, &mut closure] {
+        for function in [&mut motion, &mut stages, &mut closure] {
             put(function, 0, &directions.parameters);
         }
-        put(&mut motion, of_motion, &directions.motion_constants);
+        for function in [&mut motion, &mut stages] {
+            put(function, of_motion, &directions.motion_constants);
+        }
         put(&mut closure, of_closure, &directions.closure_constants);
-        Self { motion, closure, sizes, layout, kept, period: directions.period }
+        Self { motion, stages, at, closure, sizes, layout, kept, period: directions.period }
     }
 
     /// How worn the joints are [m].
@@ -104,6 +111,7 @@ impl<const N: usize> Turns<N> {
         let first = self.memory();
         for (joint, worn) in worn.enumerate() {
             self.motion.put(first + MEMORY * joint, worn);
+            self.stages.put(first + MEMORY * joint, worn);
         }
     }
 
@@ -157,59 +165,51 @@ impl<const N: usize> Turns<N> {
 
     /// Rates of the depths at a state.
     fn step_rates(&mut self, t: Varied<N>, state: &[Varied<N>]) -> Vec<Varied<N>> {
-        let mut slope = vec![Varied::ZERO; state.len() + ANSWER * self.sizes.contacts];
-        self.slope(t, state, &mut slope);
-        slope[state.len()..].chunks_exact(ANSWER).map(|rates| rates[1]).collect()
+        self.begin(t, state).chunks_exact(ANSWER).map(|rates| rates[1]).collect()
     }
 
     /// A step from so many turns on.
     fn step(&mut self, at: f64, part: Part, state: &mut State<N>) -> Step<N> {
-        let (rates, length) = (state.flat.len(), self.period.times(part.of_turn));
-        let outputs = rates + ANSWER * self.sizes.contacts;
-        let (mut sum, mut slope) = (vec![Varied::ZERO; outputs], vec![Varied::ZERO; outputs]);
-        let mut stage = state.flat.clone();
-        let mut losses = 0;
-        let joints = || vec![Varied::ZERO; self.sizes.contacts];
-        let (mut begin, mut middle) = (joints(), joints());
-        let mut ranges = vec![(f64::INFINITY, 0.0_f64); self.sizes.contacts];
-        for (number, (of_step, weight)) in STAGES.into_iter().enumerate() {
-            let t = self.time(at + of_step * part.of_turn);
-            if number > 0 {
-                for ((stage, state), slope) in stage.iter_mut().zip(&state.flat).zip(&slope) {
-                    *stage = state.moved(of_step, &length, slope);
-                }
-                self.slope(t, &stage, &mut slope);
-            } else {
-                self.slope(t, &state.flat, &mut slope);
-                let (changed, lost) = touched(&mut state.contacts, &slope[rates..]);
-                losses = lost;
-                if changed {
-                    self.remember(&state.contacts);
-                    self.slope(t, &state.flat, &mut slope);
-                }
-            }
-            for (joint, rates) in slope[rates..].chunks_exact(ANSWER).enumerate() {
-                let (least, most) = &mut ranges[joint];
-                (*least, *most) = (least.min(rates[1].value), most.max(rates[1].value));
-                match number {
-                    0 => begin[joint] = rates[1],
-                    // Errors of both stages in the middle take each other away.
-                    1 | 2 => middle[joint] = middle[joint].plus(0.5, &rates[1]),
-                    _ => {}
-                }
-            }
-            for (sum, slope) in sum.iter_mut().zip(&slope) {
-                *sum = sum.plus(weight, slope);
-            }
+        let length = self.period.times(part.of_turn);
+        let mut begin = self.begin(self.time(at), &state.flat);
+        let (changed, losses) = touched(&mut state.contacts, &begin);
+        if changed {
+            self.remember(&state.contacts);
+            begin = self.begin(self.time(at), &state.flat);
         }
-        let (of_state, of_joints) = sum.split_at(rates);
-        for (state, rate) in state.flat.iter_mut().zip(of_state) {
-            *state = state.moved(1.0, &length, rate);
+        let (middle, end) = (self.time(at + 0.5 * part.of_turn), self.time(at + part.of_turn));
+        let Self { stages, at: places, .. } = self;
+        put_state(stages, self.sizes.parameters, (middle, &state.flat));
+        stages.put_varied(places.end, &end);
+        stages.put_varied(places.length, &length);
+        let (values, tangents) = stages.run();
+        let found = |place: usize| Varied { value: values[place][0], tangents: tangents[place] };
+        let rates = state.flat.len();
+        for (place, one) in state.flat.iter_mut().enumerate() {
+            *one = found(place);
         }
-        let integrals = of_joints.chunks_exact(ANSWER);
-        let integrals = integrals.map(|rates| rates[0].over(&length)).collect();
-        let is_rough = ranges.iter().any(|(least, most)| *least < SMOOTH * most);
-        Step { begin, middle, integrals, losses, is_rough }
+        let mut step =
+            Step { begin: Vec::new(), middle: Vec::new(), integrals: Vec::new(), losses, is_rough: false };
+        for (joint, begin) in begin.chunks_exact(ANSWER).enumerate() {
+            let first = rates + DONE * joint;
+            step.begin.push(begin[1]);
+            step.integrals.push(found(first));
+            step.middle.push(found(first + 1));
+            let of_stages = || values[first + 2..first + DONE].iter().map(|rate| rate[0]);
+            let least = of_stages().fold(begin[1].value, f64::min);
+            let most = of_stages().fold(begin[1].value.max(0.0), f64::max);
+            step.is_rough |= least < SMOOTH * most;
+        }
+        step
+    }
+
+    /// Where a step begins: tells its stages the slope there. Out: what contacts are like.
+    fn begin(&mut self, t: Varied<N>, state: &[Varied<N>]) -> Vec<Varied<N>> {
+        put_state(&mut self.motion, self.sizes.parameters, (t, state));
+        let (values, tangents) = self.motion.run();
+        self.stages.put_many(self.at.slope, (values, tangents));
+        let answers = values.iter().zip(tangents).skip(state.len());
+        answers.map(|(value, tangents)| Varied { value: value[0], tangents: *tangents }).collect()
     }
 
     /// Tells the motion what contacts remember.
@@ -217,24 +217,13 @@ impl<const N: usize> Turns<N> {
         let first = self.memory();
         for (joint, touch) in contacts.iter().enumerate() {
             let place = first + MEMORY * joint;
-            self.motion.put(place + 1, if touch.is_touching { 1.0 } else { 0.0 });
-            self.motion.put(place + 2, touch.closing_speed.value);
-            self.motion.put_tangent(place + 2, touch.closing_speed.tangents);
-        }
-    }
-
-    fn slope(&mut self, t: Varied<N>, state: &[Varied<N>], slope: &mut [Varied<N>]) {
-        let first = self.sizes.parameters;
-        put_state(&mut self.motion, first, (t, state));
-        let (values, tangents) = self.motion.run();
-        for ((slope, value), tangents) in slope.iter_mut().zip(values).zip(tangents) {
-            *slope = Varied { value: value[0], tangents: *tangents };
+            for function in [&mut self.motion, &mut self.stages] {
+                function.put(place + 1, if touch.is_touching { 1.0 } else { 0.0 });
+                function.put_varied(place + 2, &touch.closing_speed);
+            }
         }
     }
 }
-
-/// Stages of the method: the part of the step where each is, and its weight.
-const STAGES: [(f64, f64); 4] = [(0.0, 1.0 / 6.0), (0.5, 1.0 / 3.0), (0.5, 1.0 / 3.0), (1.0, 1.0 / 6.0)];
 
 /// What contacts remember where a step begins, by the penetrations there: as runs with steps of one length have it. Whether anything is
 /// new, and how many bodies came apart.
@@ -273,7 +262,6 @@ pub(super) fn put_state<const N: usize>(
     (t, state): (Varied<N>, &[Varied<N>]),
 ) {
     for (place, one) in (first..).zip(std::iter::once(&t).chain(state)) {
-        function.put(place, one.value);
-        function.put_tangent(place, one.tangents);
+        function.put_varied(place, one);
     }
 }
