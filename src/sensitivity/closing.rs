@@ -59,9 +59,8 @@ impl<const N: usize> Turns<N> {
         put_state(&mut self.closure, self.sizes.parameters, (t, state));
         let Sizes { rows, all_rows, speeds, .. } = self.sizes;
         let (values, tangents) = self.closure.run();
-        let residual =
-            |(value, tangents): (&[f64; N], &[f64; N])| Varied { value: value[0], tangents: *tangents };
-        let residuals = values.iter().zip(tangents).take(all_rows + rows).map(residual).collect();
+        let residuals = values.iter().zip(tangents).take(all_rows + rows);
+        let residuals = residuals.map(|(value, tangents)| Varied::answered(value, tangents)).collect();
         let jacobian: Vec<f64> = values[all_rows + rows..].iter().map(|value| value[0]).collect();
         let jacobian = DMatrix::from_row_slice(rows, speeds, &jacobian);
         let is_finite = jacobian.iter().all(|entry| entry.is_finite());

@@ -10,6 +10,11 @@ pub(super) struct Varied<const N: usize> {
 impl<const N: usize> Varied<N> {
     pub(super) const ZERO: Self = Self { value: 0.0, tangents: [0.0; N] };
 
+    /// As a function answers: a value, the same in all lanes, and its tangents.
+    pub(super) fn answered(value: &[f64; N], tangents: &[f64; N]) -> Self {
+        Self { value: value[0], tangents: *tangents }
+    }
+
     /// A multiple.
     pub(super) fn times(&self, factor: f64) -> Self {
         Self { value: factor * self.value, tangents: self.tangents.map(|x| factor * x) }

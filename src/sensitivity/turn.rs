@@ -110,8 +110,9 @@ impl<const N: usize> Turns<N> {
     pub(super) fn wear(&mut self, worn: impl Iterator<Item = f64>) {
         let first = self.memory();
         for (joint, worn) in worn.enumerate() {
-            self.motion.put(first + MEMORY * joint, worn);
-            self.stages.put(first + MEMORY * joint, worn);
+            for function in [&mut self.motion, &mut self.stages] {
+                function.put(first + MEMORY * joint, worn);
+            }
         }
     }
 
@@ -183,7 +184,7 @@ impl<const N: usize> Turns<N> {
         stages.put_varied(places.end, &end);
         stages.put_varied(places.length, &length);
         let (values, tangents) = stages.run();
-        let found = |place: usize| Varied { value: values[place][0], tangents: tangents[place] };
+        let found = |place: usize| Varied::answered(&values[place], &tangents[place]);
         let rates = state.flat.len();
         for (place, one) in state.flat.iter_mut().enumerate() {
             *one = found(place);
@@ -209,7 +210,7 @@ impl<const N: usize> Turns<N> {
         let (values, tangents) = self.motion.run();
         self.stages.put_many(self.at.slope, (values, tangents));
         let answers = values.iter().zip(tangents).skip(state.len());
-        answers.map(|(value, tangents)| Varied { value: value[0], tangents: *tangents }).collect()
+        answers.map(|(value, tangents)| Varied::answered(value, tangents)).collect()
     }
 
     /// Tells the motion what contacts remember.
