@@ -4,6 +4,7 @@
 
 pub(crate) mod allocate;
 pub(crate) mod bounds;
+mod extremes;
 mod frame;
 pub(crate) mod fuse;
 pub(crate) mod graph;

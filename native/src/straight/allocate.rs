@@ -27,6 +27,9 @@ pub(crate) trait Processor: Copy + Debug {
     /// How many values an operation may be done with side by side in one register: 1, 2 or 4.
     fn widest(self) -> usize;
 
+    /// Whether it has [`Operation::Larger`] and [`Operation::Smaller`].
+    fn has_extremes(self) -> bool;
+
     /// How many copies of a constant, side by side, an operation on single values reads, or, if there is none, an output.
     fn copies(self, reader: Option<Operation>) -> usize;
 

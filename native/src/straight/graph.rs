@@ -39,6 +39,9 @@ pub(crate) enum Operation {
     Less,
     /// The second where the first, a result of `Less`, is set, else the third.
     Select,
+    /// The first where it is the larger, else the second; the next one, where it is the smaller. Written for processors that have them.
+    Larger,
+    Smaller,
     Call(Function),
     /// Of an angle; stands for its operations until they are written out.
     Sine,
@@ -130,6 +133,12 @@ impl Graph {
 
     pub(crate) fn constant(&mut self, bits: u64) -> Id {
         self.node_of(Operation::Constant(bits), [])
+    }
+
+    /// Has a node be another operation on two values that it could reach before; the last change of a graph.
+    pub(super) fn replace(&mut self, id: Id, operation: Operation, [first, second]: [Id; 2]) {
+        let node = &mut self.nodes[id as usize];
+        *node = Node { operation, arguments: [first, second, 0], count: 2, ..*node };
     }
 
     pub(crate) fn node(&self, id: Id) -> &Node {

@@ -227,6 +227,7 @@ const fn latency(operation: Operation) -> u32 {
         Operation::And | Operation::AndNot | Operation::Xor | Operation::Select => 1,
         Operation::Pair | Operation::Low | Operation::High => 2,
         Operation::Add | Operation::Subtract | Operation::Multiply | Operation::Less => 3,
+        Operation::Larger | Operation::Smaller => 3,
         Operation::Divide => 13,
         Operation::SquareRoot => 20,
         Operation::Call(_) | Operation::Sine | Operation::Cosine => 60,

@@ -6,6 +6,7 @@ use crate::refusal::Refusal;
 
 use super::allocate::{Processor, allocate};
 use super::bounds::Lengths;
+use super::extremes;
 use super::graph::Function;
 use super::lower::{Lowered, lower};
 use super::order::order;
@@ -73,7 +74,10 @@ pub(crate) fn placed<'n, P: Processor>(
     if i32::try_from(most).is_err() {
         return Err(Refusal::TooLong);
     }
-    let lowered = written_out(lowered, processor.widest());
+    let mut lowered = written_out(lowered, processor.widest());
+    if processor.has_extremes() {
+        lowered = extremes::find(lowered);
+    }
     let shape = processor.shape();
     let straight = allocate(&lowered, &order(&lowered, shape.registers), processor);
     let (inputs, outputs) = (lowered.inputs * shape.step, lowered.outputs.len() * shape.step);

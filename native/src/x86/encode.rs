@@ -160,6 +160,8 @@ impl<'a> Encoder<'a> {
             Binary::Multiply => self.arithmetic(0x59),
             Binary::Subtract => self.arithmetic(0x5C),
             Binary::Divide => self.arithmetic(0x5E),
+            Binary::Smaller => self.arithmetic(0x5D),
+            Binary::Larger => self.arithmetic(0x5F),
             Binary::Less => self.arithmetic(0xC2),
             Binary::And => plain(1, 0x54),
             Binary::AndNot => plain(1, 0x55),

@@ -78,6 +78,8 @@ pub(crate) enum Binary {
     And,
     AndNot,
     Xor,
+    Larger,
+    Smaller,
     /// Registers below 16 only, and not for eight lanes.
     Less,
 }

@@ -25,6 +25,10 @@ impl Processor for Target {
         if self.lanes == Lanes::One { 4 } else { 1 }
     }
 
+    fn has_extremes(self) -> bool {
+        true
+    }
+
     /// Four lanes read four copies. Eight lanes read one, which their instructions spread, except where a called function
     /// wants all eight. Bitwise operations of one lane read 16 bytes.
     fn copies(self, reader: Option<Operation>) -> usize {
@@ -213,6 +217,8 @@ fn binary(allocation: &mut Allocation<'_, Target>, id: Id, operation: Operation,
         Operation::And => Binary::And,
         Operation::AndNot => Binary::AndNot,
         Operation::Xor => Binary::Xor,
+        Operation::Larger => Binary::Larger,
+        Operation::Smaller => Binary::Smaller,
         // Without mask registers there are 16 registers and at most four lanes: the shorter encoding has it.
         _ => Binary::Less,
     };

@@ -55,6 +55,8 @@ pub(crate) fn calls(tape: &Tape, input: &[f64]) -> Vec<Call> {
                     y
                 }
             }
+            Operation::Larger => (if a > b { a } else { b }).to_bits(),
+            Operation::Smaller => (if a < b { a } else { b }).to_bits(),
             Operation::Call(function) => {
                 let result = match function {
                     Function::Exp => Scalar::exp(a),

@@ -98,6 +98,8 @@ impl Assembly {
                     Binary::And => "vandpd".into(),
                     Binary::AndNot => "vandnpd".into(),
                     Binary::Xor => "vxorpd".into(),
+                    Binary::Larger => format!("vmax{suffix}"),
+                    Binary::Smaller => format!("vmin{suffix}"),
                     Binary::Less => format!("vcmplt_oq{suffix}"),
                 };
                 format!("{name} {},{},{}", self.register(to), self.register(first), self.operand(second))
@@ -269,6 +271,8 @@ fn with_registers(lanes: Lanes, a: Register, b: Register, c: Register) -> Vec<In
         Binary::And,
         Binary::AndNot,
         Binary::Xor,
+        Binary::Larger,
+        Binary::Smaller,
     ];
     let low = a.max(b).max(c) < 16 && lanes != Lanes::Eight;
     let operations = operations.into_iter().chain(low.then_some(Binary::Less));

@@ -1,6 +1,7 @@
 //! Tests of what is written, against a decoder and against plain evaluation.
 
 mod encodings;
+mod extremes;
 mod guarded;
 mod hostile;
 mod masks;
