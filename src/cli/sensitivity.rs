@@ -58,11 +58,13 @@ fn failed(arguments: &SensitivityArguments, error: SensitivityError) -> Failure 
         SensitivityError::Interrupted => Failure::stopped_study(file, &error, "it begins anew"),
         SensitivityError::Run(error) => Failure::run(file, error, None),
         SensitivityError::Formula { .. } => life("name the parameters in its formula"),
-        SensitivityError::At { .. } | SensitivityError::OtherForm { .. } => {
+        SensitivityError::At { .. }
+        | SensitivityError::OtherForm { .. }
+        | SensitivityError::NoLives { .. } => {
             life("leave it out of --by; `study --vary` runs the life at values of it")
         }
         SensitivityError::NothingWears => life("give a joint a table in [clearance] and one in [wear]"),
-        SensitivityError::NotSettled { .. } => {
+        SensitivityError::NotSettled { .. } | SensitivityError::NoPeriod { .. } => {
             life("a motion without a period has no derivative; `study --vary` shows how its lives differ")
         }
         SensitivityError::NoProcess { .. } => {
@@ -120,18 +122,22 @@ fn text(name: &str, found: &SensitivityResult) -> String {
         ));
     }
     text.push_str(&format!(
-        "\n{} of {} s a turn at {} clearances, settled after at most {}; wear differs from that by adaptive steps by at most {:.1e} of \
+        "\n{} of {} s a turn at {}, settled after at most {}; wear differs from that by adaptive steps by at most {:.1e} of \
          itself\n",
         plural(found.steps, "step", "steps"),
         number(found.step),
-        found.points,
+        plural(found.points as u64, "clearance", "clearances"),
         plural(found.turns.into(), "turn", "turns"),
         found.step_error
     ));
-    if found.losses > 0 {
+    if found.life.is_by_lives {
+        let why = if found.losses > 0 {
+            format!("bodies come apart up to {} a turn", plural(found.losses.into(), "time", "times"))
+        } else {
+            "derivatives of turns do not settle".to_owned()
+        };
         text.push_str(&format!(
-            "bodies come apart up to {} a turn: derivatives are less smooth there\n",
-            plural(found.losses.into(), "time", "times")
+            "{why}: the life and its derivatives are by lives of the dynamics, at 98 to 102 % of each parameter\n"
         ));
     }
     for one in &found.left_out {
@@ -153,7 +159,7 @@ mod tests {
             parameters: vec![Varying { name: "c".into(), value: 2.0, unit: "N m s".into() }],
             left_out: vec![LeftOut { parameter: "modes".into(), reason: "a whole number\nmore".into() }],
             joints: Vec::new(),
-            life: LifeSensitivity { joint: "R1".into(), cycles },
+            life: LifeSensitivity { joint: "R1".into(), cycles, is_by_lives: true },
             random: None,
             steps: 1000,
             step: 5e-4,
@@ -165,8 +171,14 @@ mod tests {
         let told = text("m", &found);
         assert!(told.starts_with("m: R1 fails after 25.00 cycles on its mean path\n"), "{told}");
         assert!(told.contains("-5.000  1e-1          -0.4000\n"), "{told}");
-        let rough = "bodies come apart up to 4 times a turn: derivatives are less smooth there\n";
+        let rough = "bodies come apart up to 4 times a turn: the life and its derivatives are by lives of the dynamics, at 98 to 102 % of each \
+                     parameter\n";
         assert!(told.ends_with(&format!("{rough}left out: `modes`: a whole number\n")), "{told}");
-        assert!(!text("m", &SensitivityResult { losses: 0, ..found }).contains("apart"));
+        assert!(
+            text("m", &SensitivityResult { losses: 0, ..found.clone() })
+                .contains("derivatives of turns do not settle: ")
+        );
+        let smooth = LifeSensitivity { is_by_lives: false, ..found.life.clone() };
+        assert!(!text("m", &SensitivityResult { life: smooth, ..found }).contains("apart"));
     }
 }

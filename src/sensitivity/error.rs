@@ -70,6 +70,24 @@ pub enum SensitivityError {
         /// Change of the last one.
         change: f64,
     },
+    /// Where bodies come apart, turns differ from each other.
+    #[error(
+        "the motion has no period at a wear of {wear:.3e} m: its turns differ by {change:.1e} of what they wear"
+    )]
+    NoPeriod {
+        /// Wear of the joint that leads [m].
+        wear: f64,
+        /// By how much of its wear a turn differs from those after it.
+        change: f64,
+    },
+    /// By one parameter there are no lives to compare.
+    #[error(
+        "bodies come apart, and there are no lives on both sides of `{parameter}` to tell how that varies"
+    )]
+    NoLives {
+        /// The parameter.
+        parameter: String,
+    },
     /// No step is short enough.
     #[error("with {steps} steps a turn is still not followed")]
     TooLong {

@@ -7,7 +7,7 @@ use std::sync::{Mutex, PoisonError};
 use linkwear_codegen::tape::{Tape, side_by_side};
 use linkwear_runtime::life::{JointLife, JointWear, WearSource};
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{DynamicsSource, Layout, Orbit, TurnState, Watch};
+use linkwear_runtime::{DynamicsSource, Layout, Orbit, Steadiness, TurnState, Watch};
 
 use super::error::SensitivityError;
 use super::settled::{Pass, Settled, Unsettled};
@@ -22,6 +22,8 @@ const MOST_STEPS: u64 = 1 << 18;
 const FINE: f64 = 3e-5;
 /// The same may differ by this from that by adaptive steps, which is known to 1e-6 to 1e-5.
 const AGREES: f64 = 1e-4;
+/// Turns that differ by this part of their wear, after all that may settle, have no period.
+const NO_PERIOD: f64 = 1e-3;
 /// A motion that is not followed in so many times the steps that were enough before is not followed at all.
 const FINER: u64 = 16;
 
@@ -48,10 +50,40 @@ pub(super) struct Point {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Points {
     pub points: Vec<Point>,
+    /// From where bodies come apart on, or derivatives do not settle: wears [m] and what turns wear there.
+    pub rough: Vec<(Vec<f64>, Vec<ContactMeasure>)>,
     pub steps: u64,
     pub step_error: f64,
     pub turns: u32,
     pub losses: u32,
+}
+
+impl Points {
+    /// Adds turns at these wears, which have to be alike.
+    fn add_rough(
+        &mut self,
+        worn: &[f64],
+        measured: Vec<ContactMeasure>,
+        turns: &[Steadiness],
+    ) -> Result<(), SensitivityError> {
+        let drifts = turns.iter().filter_map(|turns| turns.drift);
+        let change = drifts.fold(0.0, |most: f64, drift| most.max(drift.abs()));
+        if change > NO_PERIOD {
+            return Err(SensitivityError::NoPeriod { wear: worn[0], change });
+        }
+        self.rough.push((worn.to_vec(), measured));
+        Ok(())
+    }
+
+    /// Forgets derivatives by all parameters but these.
+    pub(super) fn keep(&mut self, is_kept: impl Fn(usize) -> bool) {
+        for point in &mut self.points {
+            for wear in point.wear.iter_mut().chain(point.coarse.iter_mut().flatten()) {
+                let mut place = 0..;
+                wear.slopes.retain(|_| place.next().is_some_and(&is_kept));
+            }
+        }
+    }
 }
 
 /// What is measured.
@@ -81,17 +113,26 @@ impl Survey<'_> {
             if watch.report(place as f64 / wears.len() as f64) == ControlFlow::Break(()) {
                 return Err(SensitivityError::Interrupted);
             }
-            let joints = self.worn(worn);
             let measured = source
-                .measure(&joints, &mut orbit)
+                .measure(&worn_joints(&self.variant.joints, worn), &mut orbit)
                 .map_err(|error| SensitivityError::Wear(error.to_string()))?;
             let Some(orbit) = &orbit else { continue };
+            // How the unworn mechanism wears is told as it is.
+            if place > 0 && measured.iter().any(|one| one.losses > 0.0) || !found.rough.is_empty() {
+                found.add_rough(worn, measured, source.steadiness())?;
+                continue;
+            }
             let at = &orbit.turn;
             if found.steps == 0 {
                 found.steps = fine(&mut passes[0], at, &wearing)?;
             }
-            let settled = self.settled((&mut passes, at), &measured, &wearing, &mut found);
-            let settled = settled.map_err(|why| self.told(why, worn[0]))?;
+            let settled = match self.settled((&mut passes, at), &measured, &wearing, &mut found) {
+                Err(Unsettled::Never(..)) if place > 0 => {
+                    found.add_rough(worn, measured, source.steadiness())?;
+                    continue;
+                }
+                settled => settled.map_err(|why| self.told(why, worn[0]))?,
+            };
             found.turns = settled.iter().map(|one| one.turns).fold(found.turns, u32::max);
             found.losses = settled.iter().map(|one| one.turned.losses).fold(found.losses, u32::max);
             let wear =
@@ -113,8 +154,11 @@ impl Survey<'_> {
     ) -> Result<Vec<Settled<N>>, Unsettled> {
         let most = self.steps.unwrap_or((FINER * found.steps).min(MOST_STEPS));
         let mut before: Option<Vec<Settled<N>>> = None;
+        let mut never = 0;
         loop {
             let settled = self.settle(passes, at, found.steps, wearing);
+            // What does not settle in steps of half the length either never will.
+            never += u32::from(matches!(settled, Err(Unsettled::Never(..))));
             let most_of = |differs: &dyn Fn(usize, usize) -> f64| {
                 wearing.iter().enumerate().map(|(at, joint)| differs(at, *joint)).fold(0.0, f64::max)
             };
@@ -128,24 +172,13 @@ impl Survey<'_> {
                 }
                 _ => false,
             };
-            if apart <= AGREES || same || 2 * found.steps > most {
+            if apart <= AGREES || same || 2 * found.steps > most || never > 1 {
                 found.step_error = found.step_error.max(apart);
                 return settled;
             }
             before = settled.ok();
             found.steps *= 2;
         }
-    }
-
-    /// The wearing joints, worn by so much.
-    fn worn(&self, worn: &[f64]) -> Vec<JointWear> {
-        let one = |(joint, worn): (&JointLife, &f64)| JointWear {
-            clearance: joint.clearance + joint.gamma() * worn,
-            wear: *worn,
-            profile: None,
-            journal: None,
-        };
-        self.variant.joints.iter().zip(worn).map(one).collect()
     }
 
     /// All directions, in as many passes as they take.
@@ -221,6 +254,17 @@ impl Survey<'_> {
             Unsettled::Never(turns, change) => SensitivityError::NotSettled { wear, turns, change },
         }
     }
+}
+
+/// The wearing joints, worn by so much [m].
+pub(super) fn worn_joints(joints: &[JointLife], worn: &[f64]) -> Vec<JointWear> {
+    let one = |(joint, worn): (&JointLife, &f64)| JointWear {
+        clearance: joint.clearance + joint.gamma() * worn,
+        wear: *worn,
+        profile: None,
+        journal: None,
+    };
+    joints.iter().zip(worn).map(one).collect()
 }
 
 /// What tangents are counted in: by the logarithm of a parameter where it has one.

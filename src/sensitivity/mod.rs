@@ -6,7 +6,9 @@ mod doubts;
 mod error;
 mod function;
 mod measured;
+mod neighbours;
 mod paths;
+mod random;
 mod result;
 mod roots;
 mod settled;
@@ -15,6 +17,7 @@ mod study;
 mod tangents;
 mod turn;
 mod varied;
+mod wide;
 mod worn;
 
 pub use error::SensitivityError;

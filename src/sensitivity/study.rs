@@ -5,18 +5,20 @@ use std::thread::available_parallelism;
 
 use linkwear_codegen::model::Parameter;
 use linkwear_codegen::{Options, SourceFile};
-use linkwear_gamma::monte_carlo::GammaDraw;
 use linkwear_native::Routine;
-use linkwear_runtime::life::{LifeSettings, WearFlow, WearSource, WearTable};
+use linkwear_runtime::life::{LifeSettings, WearSource, WearTable};
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{DynamicsSource, GammaRates, RevolutionSettings, Watch};
+use linkwear_runtime::{DynamicsSource, Watch};
 
 use super::doubts::{coarser, doubts, doubts_of_points, every_second, joint_sensitivity, without_each};
 use super::error::SensitivityError;
 use super::measured::{Point, Points, Survey};
-use super::paths::{Along, Life, Paths};
+use super::neighbours::{Neighbours, with_source};
+use super::paths::{Along, Paths};
+use super::random::{processes, random};
 use super::result::{Derived, LeftOut, LifeSensitivity, RandomSensitivity, SensitivityResult};
 use super::varied::{Sides, Variant};
+use super::wide::{Wide, WideLife};
 use crate::backend::Backend;
 use crate::mechanism::Mechanism;
 
@@ -93,29 +95,28 @@ impl<'s> SensitivityStudy<'s> {
         let (sides, left_out) = self.sides(&base, watch)?;
         let mechanism = Mechanism::of(&base.compiled, &self.options, Backend::Auto)
             .map_err(|error| SensitivityError::Wear(error.to_string()))?;
-        let (system, whole) = (mechanism.system(), mechanism.whole_steps());
-        let source = || {
-            let settings = RevolutionSettings::default();
-            let (description, parameters) = (&mechanism.description, &mechanism.parameters);
-            let source = DynamicsSource::new(&*system, description, parameters, settings)?;
-            Ok::<_, SensitivityError>(match &whole {
-                Some(whole) => source.in_whole_steps(whole),
-                None => source,
-            })
-        };
         let settings = LifeSettings::new(base.joints.clone());
         watch.begin("path");
-        let wears = self.wears(&settings, &mut source()?)?;
+        let wears = with_source(&mechanism, |source| self.wears(&settings, source))?;
         watch.begin("turns");
-        let threads = self.threads.or_else(|| available_parallelism().ok()).map_or(1, NonZero::get);
-        let survey = Survey { variant: &base, sides: &sides, steps, threads };
+        let survey = Survey { variant: &base, sides: &sides, steps, threads: self.threads() };
         let empty = linkwear_codegen::tape::Recorder::default().finish("nothing", 0, &[]);
-        let measured = if Routine::<8>::new(&empty).is_ok() || Routine::<4>::new(&empty).is_err() {
-            survey.measure::<8>(&mut source()?, &wears, watch)
+        let measured = with_source(&mechanism, |source| {
+            if Routine::<8>::new(&empty).is_ok() || Routine::<4>::new(&empty).is_err() {
+                survey.measure::<8>(source, &wears, watch)
+            } else {
+                survey.measure::<4>(source, &wears, watch)
+            }
+        })?;
+        if measured.rough.is_empty() {
+            self.smooth(&base, (sides, left_out), &measured, watch)
         } else {
-            survey.measure::<4>(&mut source()?, &wears, watch)
-        }?;
-        self.result((&base, sides, left_out), &measured, watch)
+            self.rough(&base, (sides, left_out), measured, watch)
+        }
+    }
+
+    fn threads(&self) -> usize {
+        self.threads.or_else(|| available_parallelism().ok()).map_or(1, NonZero::get)
     }
 
     /// Steps of a turn, if their length was chosen.
@@ -191,9 +192,11 @@ impl<'s> SensitivityStudy<'s> {
         Ok((0..self.points).map(wear).collect())
     }
 
-    fn result(
+    /// By turns at all clearances.
+    fn smooth(
         &self,
-        (base, sides, left_out): (&Variant, Vec<Sides>, Vec<LeftOut>),
+        base: &Variant,
+        (sides, left_out): (Vec<Sides>, Vec<LeftOut>),
         measured: &Points,
         watch: Watch<'_>,
     ) -> Result<SensitivityResult, SensitivityError> {
@@ -204,26 +207,71 @@ impl<'s> SensitivityStudy<'s> {
         let without = without.collect::<Result<Vec<_>, SensitivityError>>()?;
         let paths = paths(&measured.points)?;
         let (mean, coarse) = (paths.mean(), coarse.map(|coarse| coarse.mean()));
-        let joints = (0..base.joints.len()).map(|joint| joint_sensitivity(base, &measured.points[0], joint));
         let of_steps = doubts(&mean.slopes, coarse.as_ref().map(|coarse| &*coarse.slopes));
         let of_points = doubts_of_points(&mean.slopes, &by_half.slopes, &without);
         let doubts = of_steps.iter().zip(of_points).map(|(steps, points)| steps + points);
         let cycles = Derived { value: mean.cycles, doubts: doubts.collect(), by: mean.slopes };
-        let life = LifeSensitivity { joint: base.joints[mean.joint].joint.clone(), cycles };
-        let random = if self.trajectories > 0 { Some(self.random(&paths, watch)?) } else { None };
-        Ok(SensitivityResult {
-            joints: joints.collect(),
-            life,
-            random,
-            parameters: sides.into_iter().map(|sides| sides.of).collect(),
-            left_out,
-            steps: measured.steps,
-            step: base.turn / measured.steps as f64,
-            step_error: measured.step_error,
-            turns: measured.turns,
-            losses: measured.losses,
-            points: measured.points.len(),
-        })
+        let life =
+            LifeSensitivity { joint: base.joints[mean.joint].joint.clone(), cycles, is_by_lives: false };
+        let drawn = if self.trajectories > 0 {
+            Some(random((self.trajectories, self.seed), &paths, watch)?)
+        } else {
+            None
+        };
+        Ok(result(base, (sides, left_out), measured, (life, drawn)))
+    }
+
+    /// By lives of the dynamics, where turns at some clearances say too little. Parameters without such lives are left out.
+    fn rough(
+        &self,
+        base: &Variant,
+        (sides, mut left_out): (Vec<Sides>, Vec<LeftOut>),
+        mut measured: Points,
+        watch: Watch<'_>,
+    ) -> Result<SensitivityResult, SensitivityError> {
+        let wide = Wide { source: self.source, options: &self.options, threads: self.threads() };
+        let WideLife { joint, cycles, losses, slopes } = wide.life(&sides, watch)?;
+        measured.losses = measured.losses.max(losses);
+        measured.keep(|place| slopes[place].is_some());
+        let (mut kept, mut by, mut doubts) = (Vec::new(), Vec::new(), Vec::new());
+        for (sides, slope) in sides.into_iter().zip(slopes) {
+            let Some([slope, doubt]) = slope else {
+                let parameter = sides.of.name;
+                let error = SensitivityError::NoLives { parameter: parameter.clone() };
+                if self.parameters.is_some() {
+                    return Err(error);
+                }
+                left_out.push(LeftOut { parameter, reason: error.to_string() });
+                continue;
+            };
+            kept.push(sides);
+            by.push(slope);
+            doubts.push(doubt);
+        }
+        let life =
+            LifeSensitivity { joint, cycles: Derived { value: cycles, by, doubts }, is_by_lives: true };
+        let mut drawn = None;
+        if self.trajectories > 0 {
+            watch.begin("turns beside it");
+            let mut neighbours = Neighbours::new(&kept, |sides, factor| wide.mechanism(sides.at(factor)))?;
+            let (mut points, rough) = (measured.points.clone(), std::mem::take(&mut measured.rough));
+            let count = rough.len() as f64;
+            for (place, (worn, known)) in rough.into_iter().enumerate() {
+                if watch.report(place as f64 / count).is_break() {
+                    return Err(SensitivityError::Interrupted);
+                }
+                points.push(neighbours.point(&kept, (worn, known), self.threads())?);
+            }
+            let paths = self.paths(base, &kept, &points)?;
+            let mut lives = random((self.trajectories, self.seed), &paths, watch)?;
+            // Random lives cross the same ripples: their mean is off by as much as the mean path by these points.
+            for ((mean, path), life) in lives.mean.by.iter_mut().zip(paths.mean().slopes).zip(&life.cycles.by)
+            {
+                *mean += life - path;
+            }
+            drawn = Some(lives);
+        }
+        Ok(result(base, (kept, left_out), &measured, (life, drawn)))
     }
 
     /// Lives of the mechanism and of those beside it.
@@ -261,61 +309,26 @@ impl<'s> SensitivityStudy<'s> {
         let processes = if self.trajectories > 0 { processes(variant, &flow)? } else { Vec::new() };
         Ok(Along { flow, settings, processes })
     }
-
-    fn random(&self, paths: &Paths, watch: Watch<'_>) -> Result<RandomSensitivity, SensitivityError> {
-        watch.begin("lives");
-        let rates = paths
-            .base
-            .processes
-            .iter()
-            .map(|[alpha, beta]| GammaRates { alpha: alpha.exp(), beta: beta.exp() });
-        let draw = GammaDraw::new(self.seed, &rates.collect::<Vec<_>>());
-        let mut lives: Vec<Life> = Vec::new();
-        for life in 0..self.trajectories {
-            if life % 64 == 0 && watch.report(life as f64 / self.trajectories as f64).is_break() {
-                return Err(SensitivityError::Interrupted);
-            }
-            let cycles = paths.base.settings.most_cycles;
-            lives.push(paths.drawn(&draw, life).ok_or(SensitivityError::Endless { life, cycles })?);
-        }
-        let count = lives.len() as f64;
-        let statistics = |of: &dyn Fn(&Life) -> f64| {
-            let mean = lives.iter().map(of).sum::<f64>() / count;
-            let square = lives.iter().map(|life| (of(life) - mean).powi(2)).sum::<f64>();
-            (mean, (square / (count - 1.0).max(1.0) / count).sqrt())
-        };
-        let (mean, error) = statistics(&|life| life.cycles);
-        let by: Vec<(f64, f64)> =
-            (0..paths.beside.len()).map(|at| statistics(&|life| life.slopes[at])).collect();
-        Ok(RandomSensitivity {
-            trajectories: self.trajectories,
-            seed: self.seed,
-            mean: Derived {
-                value: mean,
-                by: by.iter().map(|(slope, _)| *slope).collect(),
-                doubts: Vec::new(),
-            },
-            error,
-            errors: by.iter().map(|(_, error)| *error).collect(),
-        })
-    }
 }
 
-/// ln alpha and ln beta of every wearing joint.
-fn processes(variant: &Variant, flow: &WearFlow) -> Result<Vec<[f64; 2]>, SensitivityError> {
-    let contacts = variant.compiled.description().contacts.iter();
-    let wearing = contacts.filter_map(|contact| Some((contact, contact.wear.as_ref()?)));
-    wearing
-        .enumerate()
-        .map(|(at, (contact, wear))| {
-            if let Some(rates) = wear.scatter {
-                return Ok([rates.alpha.ln(), rates.beta.ln()]);
-            }
-            let missing = || SensitivityError::NoProcess { joint: contact.joint.to_string() };
-            let variation = wear.cycle_variation.ok_or_else(missing)?;
-            // An increment of mean m has the shape alpha m and so the coefficient of variation 1 / sqrt(alpha m).
-            let alpha = -(variation * variation * flow.gain(at, 0.0)).ln();
-            Ok([alpha, alpha])
-        })
-        .collect()
+fn result(
+    base: &Variant,
+    (sides, left_out): (Vec<Sides>, Vec<LeftOut>),
+    measured: &Points,
+    (life, random): (LifeSensitivity, Option<RandomSensitivity>),
+) -> SensitivityResult {
+    let joints = (0..base.joints.len()).map(|joint| joint_sensitivity(base, &measured.points[0], joint));
+    SensitivityResult {
+        joints: joints.collect(),
+        life,
+        random,
+        parameters: sides.into_iter().map(|sides| sides.of).collect(),
+        left_out,
+        steps: measured.steps,
+        step: base.turn / measured.steps as f64,
+        step_error: measured.step_error,
+        turns: measured.turns,
+        losses: measured.losses,
+        points: measured.points.len(),
+    }
 }

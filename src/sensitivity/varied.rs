@@ -52,6 +52,8 @@ pub struct Varying {
 /// The same, and the mechanism on both sides.
 pub(super) struct Sides {
     pub of: Varying,
+    /// As the file has it: a number and its unit.
+    written: (f64, String),
     /// Step to each side, SI.
     pub step: f64,
     pub sides: [Variant; 2],
@@ -62,6 +64,18 @@ impl Sides {
     pub(super) fn slope(&self, of: impl Fn(&Variant) -> f64) -> f64 {
         (of(&self.sides[1]) - of(&self.sides[0])) / (2.0 * self.step)
     }
+
+    /// What sets the parameter to a multiple of its value; nothing if that is zero.
+    pub(super) fn at(&self, factor: f64) -> Option<(String, String)> {
+        let (number, unit) = &self.written;
+        (*number != 0.0).then(|| set(&self.of.name, factor * number, unit))
+    }
+}
+
+/// What sets a parameter.
+fn set(name: &str, number: f64, unit: &str) -> (String, String) {
+    let text = if unit.is_empty() { format!("{number:?}") } else { format!("{number:?} {unit}") };
+    (name.to_owned(), text)
 }
 
 impl Variant {
@@ -100,8 +114,7 @@ impl Variant {
         let own = if *number == 0.0 { STEP } else { STEP * number.abs() };
         let at = |number: f64| {
             let mut options = options.clone();
-            let text = if unit.is_empty() { format!("{number:?}") } else { format!("{number:?} {unit}") };
-            options.overrides.push((name(), text));
+            options.overrides.push(set(&parameter.name, number, unit));
             let known = |error| SensitivityError::At { parameter: name(), error: Box::new(error) };
             let variant = Self::new(source, &options).map_err(known)?;
             let found = variant.compiled.mechanism.parameters.iter().find(|one| one.name == parameter.name);
@@ -113,9 +126,8 @@ impl Variant {
             Ok((variant, value))
         };
         let ((below, from), (above, to)) = (at(number - own)?, at(number + own)?);
-        let unit = parameter.dimension.si_unit();
-        let of = Varying { name: name(), value: parameter.value, unit };
-        Ok(Sides { of, step: 0.5 * (to - from), sides: [below, above] })
+        let of = Varying { name: name(), value: parameter.value, unit: parameter.dimension.si_unit() };
+        Ok(Sides { of, written: (*number, unit.clone()), step: 0.5 * (to - from), sides: [below, above] })
     }
 }
 

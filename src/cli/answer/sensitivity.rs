@@ -22,6 +22,9 @@ pub struct SensitivityAnswer<'a> {
     pub failed_joint: &'a str,
     /// Life of the mean path [cycles].
     pub mean_path_cycles: f64,
+    /// Whether the life and its derivatives are by lives of the dynamics at 98 to 102 % of each parameter, because bodies come apart or
+    /// derivatives of turns do not settle; else they are by turns at several clearances.
+    pub is_by_lives: bool,
     /// Random lives; null where none were asked for.
     pub random: Option<RandomMean>,
     /// Steps of a turn, at the clearance where most were needed.
@@ -63,7 +66,7 @@ struct SlopeAnswer {
     /// The derivative.
     derivative: f64,
     /// By how much it differs from that in three quarters of the steps, of a life with a third of the difference to that by every second
-    /// clearance; null where these steps are not enough.
+    /// clearance; null where these steps are not enough. By lives: how much nearer ones differ, and what the error of each leaves open.
     doubt: Option<f64>,
     /// Relative change per relative change of the parameter; null where the parameter is zero.
     elasticity: Option<f64>,
@@ -172,6 +175,7 @@ impl<'a> SensitivityAnswer<'a> {
             joints: found.joints.iter().map(revolution).collect(),
             failed_joint: &found.life.joint,
             mean_path_cycles: found.life.cycles.value,
+            is_by_lives: found.life.is_by_lives,
             random: found.random.as_ref().map(|random| RandomMean {
                 trajectories: random.trajectories,
                 seed: random.seed,
