@@ -8,20 +8,35 @@
 use super::graph::{Graph, Id, Operation};
 use super::lower::Lowered;
 
-// Of windows of 32 to 2048, 1 to 32 values a register and 1 to 4 operations a cycle these were fastest, on an Intel Xeon with AVX-512: a step
-// in eight lanes takes 141 and 82 ns of code (`rssr`, `four_bar_wear`), 158 and 99 by a window of 64; most single states take a twentieth less.
+// Of windows of 32 to 2048, 1 to 32 values a register and 1 to 4 operations a cycle these were fastest with 32 registers, on an Intel Xeon
+// with AVX-512: a step in eight lanes takes 141 and 82 ns of code (`rssr`, `four_bar_wear`), 158 and 99 by a window of 64; most single
+// states take a twentieth less. With 16 registers, on an AMD EPYC with AVX2, fewer values alive are: a step in four lanes takes 252 and
+// 125 ns, 275 and 131 by the numbers for 32.
 
 /// How many operations ahead may be taken.
 const WINDOW: usize = 512;
-/// Values alive, per register, from which on the order is kept.
-const CROWDED: usize = 8;
-/// Operations that begin in one cycle.
-const PER_CYCLE: u32 = 3;
+
+/// How freely operations are taken out of their first order.
+#[derive(Clone, Copy)]
+struct Freedom {
+    /// Values alive from which on the order is kept.
+    crowded: usize,
+    /// Operations that begin in one cycle.
+    per_cycle: u32,
+}
+
+impl Freedom {
+    /// With so many registers.
+    fn new(registers: u8) -> Self {
+        let (values, per_cycle) = if registers > 16 { (8, 3) } else { (4, 2) };
+        Self { crowded: values * usize::from(registers), per_cycle }
+    }
+}
 
 /// The order for so many registers.
 pub(super) fn order(lowered: &Lowered, registers: u8) -> Vec<Id> {
     let first = depth_first(lowered);
-    interleaved(&lowered.graph, &first, CROWDED * usize::from(registers))
+    interleaved(&lowered.graph, &first, Freedom::new(registers))
 }
 
 /// Registers that each node would need if nothing were shared (Sethi and Ullman, Journal of the ACM 17, 1970).
@@ -70,12 +85,12 @@ fn depth_first(lowered: &Lowered) -> Vec<Id> {
     order
 }
 
-/// Takes from the next operations of an order the one whose arguments are ready first; with `crowded` values alive or
-/// more, the next one, or one that ends a life.
-fn interleaved(graph: &Graph, first: &[Id], crowded: usize) -> Vec<Id> {
-    let mut state = State::new(graph, first);
+/// Takes from the next operations of an order the one whose arguments are ready first; with too many values alive the next one, or one
+/// that ends a life.
+fn interleaved(graph: &Graph, first: &[Id], freedom: Freedom) -> Vec<Id> {
+    let mut state = State::new(graph, first, freedom);
     let mut order = Vec::with_capacity(first.len());
-    while let Some(chosen) = state.choose(crowded) {
+    while let Some(chosen) = state.choose() {
         state.take(graph, first, chosen);
         order.push(first[chosen.place as usize]);
     }
@@ -118,10 +133,11 @@ struct State {
     alive: usize,
     /// Operations that could have begun so far, in all cycles.
     begun: u32,
+    freedom: Freedom,
 }
 
 impl State {
-    fn new(graph: &Graph, first: &[Id]) -> Self {
+    fn new(graph: &Graph, first: &[Id], freedom: Freedom) -> Self {
         let mut places = vec![0_u32; graph.len()];
         (0..).zip(first).for_each(|(place, id)| places[*id as usize] = place);
         let mut arguments = vec![([0; 3], 0_u32); first.len()];
@@ -150,8 +166,20 @@ impl State {
         let missing = arguments.iter().map(|(_, count)| *count).collect();
         let at = vec![0; first.len()];
         let (window_end, ready) = (0, Vec::with_capacity(WINDOW));
-        let mut state =
-            Self { arguments, missing, at, readers, readers_of, left, window_end, ready, alive: 0, begun: 0 };
+        let (alive, begun) = (0, 0);
+        let mut state = Self {
+            arguments,
+            missing,
+            at,
+            readers,
+            readers_of,
+            left,
+            window_end,
+            ready,
+            alive,
+            begun,
+            freedom,
+        };
         (0..WINDOW).for_each(|_| state.widen());
         state
     }
@@ -173,9 +201,9 @@ impl State {
     }
 
     /// What runs next; none if the window is empty.
-    fn choose(&mut self, crowded: usize) -> Option<Ready> {
-        let now = self.begun / PER_CYCLE;
-        let is_crowded = self.alive >= crowded;
+    fn choose(&mut self) -> Option<Ready> {
+        let now = self.begun / self.freedom.per_cycle;
+        let is_crowded = self.alive >= self.freedom.crowded;
         let mut best: Option<(usize, u32)> = None;
         // The first of the window comes before all that could need it.
         for (index, ready) in self.ready.iter().enumerate() {
@@ -196,7 +224,7 @@ impl State {
     }
 
     fn take(&mut self, graph: &Graph, first: &[Id], chosen: Ready) {
-        self.begun = (self.begun + 1).max(chosen.at * PER_CYCLE);
+        self.begun = (self.begun + 1).max(chosen.at * self.freedom.per_cycle);
         for argument in &chosen.arguments[..chosen.count as usize] {
             let left = &mut self.left[*argument as usize];
             *left -= 1;
