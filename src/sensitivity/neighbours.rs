@@ -11,10 +11,8 @@ use linkwear_runtime::{DynamicsSource, Orbit, RevolutionSettings};
 use super::error::SensitivityError;
 use super::measured::{Point, Wear, worn_joints};
 use super::varied::Sides;
+use super::wide::{FARTHEST, Wide, across};
 use crate::mechanism::Mechanism;
-
-/// Steps to each side, as parts of a parameter: over several ripples of the wear, and where there is no mechanism so far away.
-const STEPS: [f64; 2] = [0.02, 0.004];
 
 /// A mechanism whose turns are measured, from wear to wear.
 struct Neighbour {
@@ -41,16 +39,17 @@ impl Neighbour {
 }
 
 impl Neighbours {
-    /// `mechanism` makes that of a parameter times a factor.
-    pub(super) fn new(
-        sides: &[Sides],
-        mechanism: impl Fn(&Sides, f64) -> Result<Mechanism, SensitivityError>,
-    ) -> Result<Self, SensitivityError> {
+    /// As far from a file's parameters as its lives.
+    pub(super) fn new(sides: &[Sides], wide: &Wide<'_>) -> Result<Self, SensitivityError> {
         let pair = |sides: &Sides, step: f64| {
-            let [below, above] = [1.0 - step, 1.0 + step].map(|factor| mechanism(sides, factor));
-            Ok(([Neighbour::new(below?), Neighbour::new(above?)], step.ln_1p() - (-step).ln_1p()))
+            let mechanism = |factor: f64| {
+                let none = || SensitivityError::NoLives { parameter: sides.of.name.clone() };
+                wide.mechanism(sides.at(factor).ok_or_else(none)?)
+            };
+            let [below, above] = [1.0 - step, 1.0 + step].map(mechanism);
+            Ok(([Neighbour::new(below?), Neighbour::new(above?)], across(step)))
         };
-        let [long, short] = STEPS;
+        let [long, short] = FARTHEST;
         let pair = |sides: &Sides| pair(sides, long).or_else(|_: SensitivityError| pair(sides, short));
         sides.iter().map(pair).collect::<Result<_, _>>().map(Self)
     }

@@ -111,7 +111,7 @@ impl<'s> SensitivityStudy<'s> {
         if measured.rough.is_empty() {
             self.smooth(&base, (sides, left_out), &measured, watch)
         } else {
-            self.rough(&base, (sides, left_out), measured, watch)
+            self.rough((&base, &mechanism), (sides, left_out), measured, watch)
         }
     }
 
@@ -224,13 +224,13 @@ impl<'s> SensitivityStudy<'s> {
     /// By lives of the dynamics, where turns at some clearances say too little. Parameters without such lives are left out.
     fn rough(
         &self,
-        base: &Variant,
+        (base, mechanism): (&Variant, &Mechanism),
         (sides, mut left_out): (Vec<Sides>, Vec<LeftOut>),
         mut measured: Points,
         watch: Watch<'_>,
     ) -> Result<SensitivityResult, SensitivityError> {
         let wide = Wide { source: self.source, options: &self.options, threads: self.threads() };
-        let WideLife { joint, cycles, losses, slopes } = wide.life(&sides, watch)?;
+        let WideLife { joint, cycles, losses, slopes } = wide.life(mechanism, &sides, watch)?;
         measured.losses = measured.losses.max(losses);
         measured.keep(|place| slopes[place].is_some());
         let (mut kept, mut by, mut doubts) = (Vec::new(), Vec::new(), Vec::new());
@@ -253,7 +253,7 @@ impl<'s> SensitivityStudy<'s> {
         let mut drawn = None;
         if self.trajectories > 0 {
             watch.begin("turns beside it");
-            let mut neighbours = Neighbours::new(&kept, |sides, factor| wide.mechanism(sides.at(factor)))?;
+            let mut neighbours = Neighbours::new(&kept, &wide)?;
             let (mut points, rough) = (measured.points.clone(), std::mem::take(&mut measured.rough));
             let count = rough.len() as f64;
             for (place, (worn, known)) in rough.into_iter().enumerate() {

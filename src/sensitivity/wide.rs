@@ -16,10 +16,14 @@ use crate::backend::Backend;
 use crate::life::{Cause, Coupling, LifeResult, LifeStudy, Trajectories};
 use crate::mechanism::Mechanism;
 
-/// Steps to each side, as parts of a parameter: over several ripples.
-const LONG: f64 = 0.01;
-/// Where a mechanism has no such lives: its loop does not close, another joint fails first.
-const SHORT: f64 = 0.002;
+/// The farthest step to each side, as a part of a parameter: over several ripples; and where a mechanism has nothing so far away: its loop
+/// does not close, another joint fails first.
+pub(super) const FARTHEST: [f64; 2] = [0.02, 0.004];
+
+/// How far apart the logarithms of a parameter are, from a step below it to one above.
+pub(super) fn across(step: f64) -> f64 {
+    step.ln_1p() - (-step).ln_1p()
+}
 
 /// A file whose lives are asked for.
 pub(super) struct Wide<'s> {
@@ -41,17 +45,23 @@ pub(super) struct WideLife {
 }
 
 impl Wide<'_> {
-    /// Of the mean path.
-    pub(super) fn life(&self, sides: &[Sides], watch: Watch<'_>) -> Result<WideLife, SensitivityError> {
+    /// Of the mean path of the file's mechanism.
+    pub(super) fn life(
+        &self,
+        mechanism: &Mechanism,
+        sides: &[Sides],
+        watch: Watch<'_>,
+    ) -> Result<WideLife, SensitivityError> {
         watch.begin("lives beside it");
-        let own = self.mean_path(None, Watch::new(&|_| watch.report(0.0)))?;
+        let own = mean_path(mechanism, Watch::new(&|_| watch.report(0.0)))?;
+        let [long, short] = FARTHEST;
         let (mut slopes, count) = (Vec::with_capacity(sides.len()), sides.len() as f64);
         for (place, sides) in sides.iter().enumerate() {
             let part = place as f64 / count;
             let hear = |_| watch.report(part);
             let watch = Watch::new(&hear);
-            let slope = match self.slope(&own, sides, LONG, watch)? {
-                None => self.slope(&own, sides, SHORT, watch)?,
+            let slope = match self.slope(&own, sides, long, watch)? {
+                None => self.slope(&own, sides, short, watch)?,
                 found => found,
             };
             slopes.push(slope);
@@ -70,12 +80,13 @@ impl Wide<'_> {
         &self,
         own: &LifeResult,
         sides: &Sides,
-        step: f64,
+        farthest: f64,
         watch: Watch<'_>,
     ) -> Result<Option<[f64; 2]>, SensitivityError> {
-        let parts = [-2.0 * step, -step, step, 2.0 * step];
+        let step = 0.5 * farthest;
+        let parts = [-farthest, -step, step, farthest];
         let lives = side_by_side(&parts, self.threads, |part| {
-            sides.at(1.0 + part).map(|set| self.mean_path(Some(set), watch))
+            sides.at(1.0 + part).map(|set| mean_path(&self.mechanism(set)?, watch))
         });
         let mut logarithms = [0.0; 4];
         let mut error = error_of(own);
@@ -89,8 +100,7 @@ impl Wide<'_> {
             error = error.max(error_of(&life));
         }
         let [before, below, above, after] = logarithms;
-        let over = |step: f64| step.ln_1p() - (-step).ln_1p();
-        let [near, far] = [(above - below) / over(step), (after - before) / over(2.0 * step)];
+        let [near, far] = [(above - below) / across(step), (after - before) / across(farthest)];
         // The straight line through all of them.
         let slope = 0.2 * near + 0.8 * far;
         let doubt = (near - far).abs() + error / (10.0_f64.sqrt() * step);
@@ -98,32 +108,27 @@ impl Wide<'_> {
         Ok(Some([slope * unit, doubt * unit.abs()]))
     }
 
-    /// The mean path with a parameter set.
-    fn mean_path(
-        &self,
-        set: Option<(String, String)>,
-        watch: Watch<'_>,
-    ) -> Result<LifeResult, SensitivityError> {
-        let mechanism = self.mechanism(set)?;
-        let study = LifeStudy {
-            coupling: Some(Coupling::Full),
-            trajectories: Trajectories::MeanPath,
-            threads: Some(NonZero::<usize>::MIN),
-            ..LifeStudy::new(&mechanism)
-        };
-        study.run_watched(watch).map_err(|error| match *error.cause {
-            Cause::Interrupted { .. } => SensitivityError::Interrupted,
-            cause => SensitivityError::Wear(cause.to_string()),
-        })
-    }
-
     /// The mechanism with a parameter set.
-    pub(super) fn mechanism(&self, set: Option<(String, String)>) -> Result<Mechanism, SensitivityError> {
+    pub(super) fn mechanism(&self, set: (String, String)) -> Result<Mechanism, SensitivityError> {
         let mut options = self.options.clone();
-        options.overrides.extend(set);
+        options.overrides.push(set);
         let mechanism = Mechanism::compile(self.source, &options, Backend::Auto);
         mechanism.map_err(|error| SensitivityError::Wear(error.to_string()))
     }
+}
+
+/// The mean path of a mechanism.
+fn mean_path(mechanism: &Mechanism, watch: Watch<'_>) -> Result<LifeResult, SensitivityError> {
+    let study = LifeStudy {
+        coupling: Some(Coupling::Full),
+        trajectories: Trajectories::MeanPath,
+        threads: Some(NonZero::<usize>::MIN),
+        ..LifeStudy::new(mechanism)
+    };
+    study.run_watched(watch).map_err(|error| match *error.cause {
+        Cause::Interrupted { .. } => SensitivityError::Interrupted,
+        cause => SensitivityError::Wear(cause.to_string()),
+    })
 }
 
 /// How far a life may be off, as a part of it: by its wear steps, by turns that are not steady.
