@@ -1,13 +1,12 @@
 //! Wear and its derivatives at states of wear along a life. In: a mechanism, its sides. Out: what turns wear there, and how that
 //! varies. Never knows lives.
 
-use std::ops::ControlFlow;
 use std::sync::{Mutex, PoisonError};
 
 use linkwear_codegen::tape::{Tape, side_by_side};
 use linkwear_runtime::life::{JointLife, JointWear, WearSource};
 use linkwear_runtime::wear::ContactMeasure;
-use linkwear_runtime::{DynamicsSource, Layout, Orbit, Steadiness, TurnState, Watch};
+use linkwear_runtime::{DynamicsSource, Layout, Orbit, TurnState, Watch};
 
 use super::error::SensitivityError;
 use super::settled::{Pass, Settled, Unsettled};
@@ -24,6 +23,8 @@ const FINE: f64 = 3e-5;
 const AGREES: f64 = 1e-4;
 /// Turns that differ by this part of their wear, after all that may settle, have no period.
 const NO_PERIOD: f64 = 1e-3;
+/// The part of the work that turns without derivatives are, about.
+const MEASURED: f64 = 0.1;
 /// A motion that is not followed in so many times the steps that were enough before is not followed at all.
 const FINER: u64 = 16;
 
@@ -59,19 +60,13 @@ pub(super) struct Points {
 }
 
 impl Points {
-    /// Adds turns at these wears, which have to be alike.
-    fn add_rough(
-        &mut self,
-        worn: &[f64],
-        measured: Vec<ContactMeasure>,
-        turns: &[Steadiness],
-    ) -> Result<(), SensitivityError> {
-        let drifts = turns.iter().filter_map(|turns| turns.drift);
-        let change = drifts.fold(0.0, |most: f64, drift| most.max(drift.abs()));
+    /// Adds turns without derivatives, which have to be alike.
+    fn add_rough(&mut self, state: State) -> Result<(), SensitivityError> {
+        let State { worn, measured, change, .. } = state;
         if change > NO_PERIOD {
             return Err(SensitivityError::NoPeriod { wear: worn[0], change });
         }
-        self.rough.push((worn.to_vec(), measured));
+        self.rough.push((worn, measured));
         Ok(())
     }
 
@@ -86,12 +81,31 @@ impl Points {
     }
 }
 
+/// A settled turn by adaptive steps at a state of wear.
+struct State {
+    worn: Vec<f64>,
+    measured: Vec<ContactMeasure>,
+    /// By how much of it wear changes from turn to turn, where that is most.
+    change: f64,
+    turn: TurnState,
+}
+
+impl State {
+    /// Whether bodies stay together.
+    fn is_smooth(&self) -> bool {
+        self.measured.iter().all(|one| one.losses == 0.0)
+    }
+}
+
 /// What is measured.
 pub(super) struct Survey<'s> {
     pub variant: &'s Variant,
     pub sides: &'s [Sides],
     /// Steps of a turn, if they were chosen.
     pub steps: Option<u64>,
+    /// Whether derivatives are asked for all along the path, though bodies come apart on it; else those of the unworn mechanism are
+    /// enough there.
+    pub is_path_asked: bool,
     /// Threads that share the directions.
     pub threads: usize,
 }
@@ -106,32 +120,31 @@ impl Survey<'_> {
     ) -> Result<Points, SensitivityError> {
         let contacts = &self.variant.compiled.description().contacts;
         let wearing: Vec<usize> = (0..contacts.len()).filter(|at| contacts[*at].wear.is_some()).collect();
+        let states = self.states(source, wears, watch)?;
+        // How the unworn mechanism wears is told as it is.
+        let smooth = 1 + states.iter().skip(1).take_while(|state| state.is_smooth()).count();
+        let by_turns = if smooth == states.len() || self.is_path_asked { smooth } else { 1 };
         let mut passes = self.passes::<N>();
         let mut found = Points { steps: self.steps.unwrap_or(0), ..Points::default() };
-        let mut orbit: Option<Orbit> = None;
-        for (place, worn) in wears.iter().enumerate() {
-            if watch.report(place as f64 / wears.len() as f64) == ControlFlow::Break(()) {
+        for (place, state) in states.into_iter().enumerate() {
+            let part = MEASURED + (1.0 - MEASURED) * place as f64 / by_turns as f64;
+            if watch.report(part.min(1.0)).is_break() {
                 return Err(SensitivityError::Interrupted);
             }
-            let measured = source
-                .measure(&worn_joints(&self.variant.joints, worn), &mut orbit)
-                .map_err(|error| SensitivityError::Wear(error.to_string()))?;
-            let Some(orbit) = &orbit else { continue };
-            // How the unworn mechanism wears is told as it is.
-            if place > 0 && measured.iter().any(|one| one.losses > 0.0) || !found.rough.is_empty() {
-                found.add_rough(worn, measured, source.steadiness())?;
+            if place >= by_turns || !found.rough.is_empty() {
+                found.add_rough(state)?;
                 continue;
             }
-            let at = &orbit.turn;
+            let at = &state.turn;
             if found.steps == 0 {
                 found.steps = fine(&mut passes[0], at, &wearing)?;
             }
-            let settled = match self.settled((&mut passes, at), &measured, &wearing, &mut found) {
+            let settled = match self.settled((&mut passes, at), &state.measured, &wearing, &mut found) {
                 Err(Unsettled::Never(..)) if place > 0 => {
-                    found.add_rough(worn, measured, source.steadiness())?;
+                    found.add_rough(state)?;
                     continue;
                 }
-                settled => settled.map_err(|why| self.told(why, worn[0]))?,
+                settled => settled.map_err(|why| self.told(why, state.worn[0]))?,
             };
             found.turns = settled.iter().map(|one| one.turns).fold(found.turns, u32::max);
             found.losses = settled.iter().map(|one| one.turned.losses).fold(found.losses, u32::max);
@@ -139,9 +152,33 @@ impl Survey<'_> {
                 |settled: &[Settled<N>]| wearing.iter().map(|joint| self.wear(settled, *joint)).collect();
             let coarse = self.settle(&mut passes, at, found.steps - found.steps / 4, &wearing).ok();
             let (wear, coarse) = (wear(&settled), coarse.map(|settled| wear(&settled)));
-            found.points.push(Point { worn: worn.clone(), measured, wear, coarse });
+            found.points.push(Point { worn: state.worn, measured: state.measured, wear, coarse });
         }
         Ok(found)
+    }
+
+    /// Settled turns by adaptive steps, without derivatives.
+    fn states(
+        &self,
+        source: &mut DynamicsSource<'_>,
+        wears: &[Vec<f64>],
+        watch: Watch<'_>,
+    ) -> Result<Vec<State>, SensitivityError> {
+        let mut orbit: Option<Orbit> = None;
+        let mut states = Vec::with_capacity(wears.len());
+        for (place, worn) in wears.iter().enumerate() {
+            if watch.report(MEASURED * place as f64 / wears.len() as f64).is_break() {
+                return Err(SensitivityError::Interrupted);
+            }
+            let measured = source
+                .measure(&worn_joints(&self.variant.joints, worn), &mut orbit)
+                .map_err(|error| SensitivityError::Wear(error.to_string()))?;
+            let Some(Orbit { turn, .. }) = &orbit else { continue };
+            let drifts = source.steadiness().iter().filter_map(|turns| turns.drift);
+            let change = drifts.fold(0.0, |most: f64, drift| most.max(drift.abs()));
+            states.push(State { worn: worn.clone(), measured, change, turn: turn.clone() });
+        }
+        Ok(states)
     }
 
     /// Settled turns, in steps that are short enough: what they wear agrees with what was measured.

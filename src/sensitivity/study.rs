@@ -99,7 +99,13 @@ impl<'s> SensitivityStudy<'s> {
         watch.begin("path");
         let wears = with_source(&mechanism, |source| self.wears(&settings, source))?;
         watch.begin("turns");
-        let survey = Survey { variant: &base, sides: &sides, steps, threads: self.threads() };
+        let survey = Survey {
+            variant: &base,
+            sides: &sides,
+            steps,
+            is_path_asked: self.trajectories > 0,
+            threads: self.threads(),
+        };
         let empty = linkwear_codegen::tape::Recorder::default().finish("nothing", 0, &[]);
         let measured = with_source(&mechanism, |source| {
             if Routine::<8>::new(&empty).is_ok() || Routine::<4>::new(&empty).is_err() {

@@ -37,7 +37,7 @@ pub struct SensitivityAnswer<'a> {
     pub turns: u32,
     /// How often bodies came apart in a turn, where that was most.
     pub contact_losses: u32,
-    /// Clearances at which turns were run.
+    /// Clearances at which turns have derivatives: where bodies come apart and no random lives are asked for, the first alone.
     pub points: usize,
 }
 
