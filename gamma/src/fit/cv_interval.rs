@@ -1,14 +1,16 @@
 //! The interval of the coefficient of variation between units. In: a fit in which they differ, data. Out: the values that a
 //! likelihood-ratio test does not reject. Never knows how the fit was found.
 
+use std::cell::RefCell;
+
 use super::drawn_units::{DrawnUnits, is_skew};
 use super::error::FitError;
 use super::heterogeneity::{Heterogeneity, LEAST_CV, START_CV, few_units};
-use super::interval::Interval;
+use super::interval::{ACCURACY, Interval};
 use super::maximise::{LARGEST_CV, maximise};
 use super::model::Model;
 use crate::data::Observations;
-use crate::special::rising_root;
+use crate::special::rising_root_within;
 
 /// Turns of the end of an interval and a drawn critical value there, and where they end, in the logarithm of cv: drawn data tell an end to
 /// some percent.
@@ -62,7 +64,7 @@ impl Heterogeneity {
         if self.test.p_value >= 1.0 - level && cv <= self.fit.cv().unwrap_or(0.0) {
             return Ok(true);
         }
-        let fall = self.fall(observations, cv).ok_or(FitError::NotConverged)?;
+        let fall = self.fall(observations, cv, &mut self.fit.phi.clone()).ok_or(FitError::NotConverged)?;
         if self.is_skew(observations)? {
             let drawn = self.drawn_at(observations, cv).ok_or(FitError::NotConverged)?;
             return Ok(drawn.allows(fall, level));
@@ -79,12 +81,12 @@ impl Heterogeneity {
 
     /// Data drawn there, the other parameters at their best.
     fn drawn_at<'a>(&self, observations: &'a Observations, cv: f64) -> Option<DrawnUnits<'a>> {
-        let (phi, _) = self.best_at(observations, cv)?;
+        let (phi, _) = self.best_at(observations, cv, &self.fit.phi)?;
         Some(DrawnUnits::new(&Model { units_differ: true, ..self.fit.model }, phi, observations))
     }
 
-    /// The other parameters' best at a coefficient of variation, and their log-likelihood.
-    fn best_at(&self, observations: &Observations, cv: f64) -> Option<(Vec<f64>, f64)> {
+    /// The other parameters' best at a coefficient of variation, looked for from `near` on, and their log-likelihood.
+    fn best_at(&self, observations: &Observations, cv: f64, near: &[f64]) -> Option<(Vec<f64>, f64)> {
         let wide = Model { units_differ: true, ..self.fit.model };
         let last = wide.parameters() - 1;
         let from = |phi: &[f64]| {
@@ -94,20 +96,36 @@ impl Heterogeneity {
             maximise(&wide, &observations.increments, &phi, Some(last)).ok()
         };
         // Where the likelihood hardly falls towards large ones the estimate may be too far away to begin there.
-        let (phi, point) = from(&self.fit.phi).or_else(|| from(&self.plain.phi))?;
+        let (phi, point) = from(near).or_else(|| from(&self.fit.phi)).or_else(|| from(&self.plain.phi))?;
         Some((phi, point.value))
     }
 
-    /// Twice the fall of the log-likelihood from its maximum to a coefficient of variation.
-    fn fall(&self, observations: &Observations, cv: f64) -> Option<f64> {
-        self.best_at(observations, cv).map(|(_, value)| 2.0 * (self.fit.log_likelihood - value))
+    /// Twice the fall of the log-likelihood from its maximum to a coefficient of variation; `near` goes along with the best there.
+    fn fall(&self, observations: &Observations, cv: f64, near: &mut Vec<f64>) -> Option<f64> {
+        let (best, value) = self.best_at(observations, cv, near)?;
+        *near = best;
+        Some(2.0 * (self.fit.log_likelihood - value))
+    }
+
+    /// How far the fall is beyond a critical value, over the coefficient of variation.
+    fn beyond<'a>(
+        &'a self,
+        observations: &'a Observations,
+        critical: &'a dyn Fn(f64) -> f64,
+    ) -> impl Fn(f64) -> f64 + 'a {
+        let near = RefCell::new(self.fit.phi.clone());
+        move |cv| {
+            let fall = self.fall(observations, cv, &mut near.borrow_mut());
+            fall.unwrap_or(f64::INFINITY) - critical(cv)
+        }
     }
 
     /// Where the fall below the estimate is critical; 0 where it is nowhere.
     fn low_end(&self, observations: &Observations, critical: &dyn Fn(f64) -> f64) -> f64 {
-        let beyond = |cv: f64| self.fall(observations, cv).unwrap_or(f64::INFINITY) - critical(cv);
+        let beyond = self.beyond(observations, critical);
         // Falls towards the top: rises in 1 / cv.
-        let low = 1.0 / rising_root(&|inverse| beyond(1.0 / inverse), 1.0 / self.fit.cv().unwrap_or(0.0));
+        let rising = |inverse: f64| beyond(1.0 / inverse);
+        let low = 1.0 / rising_root_within(&rising, 1.0 / self.fit.cv().unwrap_or(0.0), ACCURACY);
         if low > LEAST_CV { low } else { 0.0 }
     }
 
@@ -117,8 +135,9 @@ impl Heterogeneity {
         if self.is_flat_above(top, observations, critical) {
             return Ok(f64::INFINITY);
         }
-        let beyond = |cv: f64| self.fall(observations, cv).unwrap_or(f64::INFINITY) - critical(cv);
-        let high = top + rising_root(&|more| beyond(top + more), (0.5 * top).max(LEAST_CV));
+        let beyond = self.beyond(observations, critical);
+        let rising = |more: f64| beyond(top + more);
+        let high = top + rising_root_within(&rising, (0.5 * top).max(LEAST_CV), ACCURACY);
         Some(high).filter(|high| *high < LARGEST_CV).ok_or(FitError::NotConverged)
     }
 

@@ -10,11 +10,11 @@
 use super::drawn_falls::{DrawnFalls, EDGE};
 use super::error::FitError;
 use super::estimate::{Fit, follows};
-use super::interval::{Interval, profile_interval};
+use super::interval::{ACCURACY, Interval, profile_interval};
 use super::maximise::{maximise, start};
 use super::model::Model;
 use crate::data::{Increment, Observations};
-use crate::special::{normal_quantile, rising_root};
+use crate::special::{normal_quantile, rising_root_within};
 
 /// Standard errors between the scatter and none, above which the edge is too far to count: at 7 of them chi-square holds the truth in 93 %
 /// or more, at 5.5 in 92.6 to 93.8 (docs/remaining-life.md).
@@ -257,7 +257,7 @@ fn ends(
             let (tested, end) = if is_open {
                 (at(last.max(from)), f64::INFINITY)
             } else {
-                let by = rising_root(&below, 0.5);
+                let by = rising_root_within(&below, 0.5, ACCURACY);
                 (at(value(by)), value(by))
             };
             let is_settled = end == found || (end - found).abs() < CLOSE;

@@ -3,13 +3,15 @@
 
 use super::error::FitError;
 use super::estimate::Fit;
-use super::maximise::maximise;
+use super::maximise::{LARGEST_CV, maximise};
 use crate::data::Observations;
 use crate::special::normal_quantile;
 
 /// Standard errors from the estimate up to which the end of an interval is looked for: a likelihood that has not fallen enough by
 /// then is flat.
 const FARTHEST: f64 = 30.0;
+/// Relative accuracy of the end of an interval that is bracketed: no digit that is printed depends on more.
+pub(super) const ACCURACY: f64 = 1e-9;
 
 /// An interval for a parameter; an end is infinite, or 0 for a parameter that is positive, where the data set none.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,11 +52,10 @@ pub fn profile_interval(
 fn end(fit: &Fit, observations: &Observations, index: usize, target: f64) -> Result<f64, FitError> {
     let top = fit.phi[index];
     let deviation = fit.covariance[index][index].sqrt();
-    let mut from = fit.phi.clone();
+    let mut path = Path::new(fit, index);
     let mut root = |value: f64| -> Result<f64, FitError> {
-        from[index] = value;
-        let (phi, point) = maximise(&fit.model, &observations.increments, &from, Some(index))?;
-        from = phi;
+        let (phi, point) = maximise(&fit.model, &observations.increments, &path.start(value), Some(index))?;
+        path.add(phi);
         Ok((2.0 * (fit.log_likelihood - point.value)).max(0.0).sqrt() * target.signum())
     };
     // The exponent stays positive: towards 0 by halves.
@@ -86,4 +87,47 @@ fn end(fit: &Fit, observations: &Observations, index: usize, target: f64) -> Res
         (x0, r0, x1) = (x1, r1, guard(x1, x1 + step));
     }
     Err(FitError::NotConverged)
+}
+
+/// The other parameters' best as one is moved: where to look for the next of them.
+struct Path<'a> {
+    fit: &'a Fit,
+    index: usize,
+    /// Where the last best was.
+    last: Vec<f64>,
+    /// How all change with the one.
+    slope: Vec<f64>,
+}
+
+impl<'a> Path<'a> {
+    /// From the estimate, along the ridge of the likelihood.
+    fn new(fit: &'a Fit, index: usize) -> Self {
+        let slope = fit.covariance.iter().map(|row| row[index] / fit.covariance[index][index]);
+        Self { fit, index, last: fit.phi.clone(), slope: slope.collect() }
+    }
+
+    fn start(&self, value: f64) -> Vec<f64> {
+        let by = value - self.last[self.index];
+        let mut start: Vec<f64> =
+            self.last.iter().zip(&self.slope).map(|(last, slope)| last + by * slope).collect();
+        // Where a straight line ends beyond what there is, it is not followed.
+        let is_left = |at: &usize| {
+            let is_exponent = self.fit.model.power_law && *at == 2;
+            let is_cv = self.fit.model.units_differ && *at + 1 == self.last.len();
+            (is_exponent && start[*at] <= 0.0) || (is_cv && start[*at] > libm::log(LARGEST_CV))
+        };
+        if (0..start.len()).any(|at| is_left(&at)) {
+            start.clone_from(&self.last);
+        }
+        start[self.index] = value;
+        start
+    }
+
+    fn add(&mut self, best: Vec<f64>) {
+        let by = best[self.index] - self.last[self.index];
+        if by != 0.0 {
+            self.slope = best.iter().zip(&self.last).map(|(best, last)| (best - last) / by).collect();
+        }
+        self.last = best;
+    }
 }

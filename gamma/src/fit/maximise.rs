@@ -96,6 +96,10 @@ fn climb(
         let gain: f64 = step.iter().zip(&gradient).map(|(s, g)| s * g).sum();
         // Half the gain is what is left to climb: relative to 1 in the log-likelihood, far below a standard error.
         let done = gain < 1e-13;
+        // With a parameter held the likelihood alone is asked for.
+        if done && held.is_some() {
+            return Ok(here);
+        }
         // No two e-folds at once: far from the top the quadratic model means nothing.
         let mut length = 2.0 / step.iter().fold(2.0_f64, |most, s| most.max(s.abs()));
         loop {

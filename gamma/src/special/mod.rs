@@ -23,7 +23,7 @@ pub use normal::{LN_2_PI, normal_cdf, normal_density, normal_mills, normal_quant
 pub use polygamma::{digamma, tetragamma, trigamma};
 pub use quantile::{gamma_quantile, ln_gamma_quantile};
 pub use reflected_normal::reflected_normal;
-pub(crate) use root::{guarded, rising_root};
+pub(crate) use root::{guarded, rising_root, rising_root_within};
 pub use shape_slope::ln_gamma_p_slope;
 pub use student::student_bound;
 

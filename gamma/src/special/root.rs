@@ -13,43 +13,87 @@ pub(crate) fn guarded(next: f64, x: f64, (low, high): (f64, f64)) -> f64 {
     }
 }
 
-/// Positive root of a rising function, looked for from `start` > 0 on by doubling and halving, then by the method of
-/// C. J. F. Ridders (1979): halving with exponential correction. Relative accuracy 1e-13.
+/// Positive root of a rising function, looked for from `start` > 0 on by doubling and halving, then by [`bracketed`]. Relative
+/// accuracy 1e-13.
 pub(crate) fn rising_root(f: &dyn Fn(f64) -> f64, start: f64) -> f64 {
-    let mut high = start;
-    while f(high) < 0.0 && high < f64::MAX / 4.0 {
-        high *= 2.0;
+    rising_root_within(f, start, 1e-13)
+}
+
+/// The same to another relative accuracy.
+pub(crate) fn rising_root_within(f: &dyn Fn(f64) -> f64, start: f64, accuracy: f64) -> f64 {
+    let (mut low, mut high) = ((0.5 * start, None), (start, f(start)));
+    while high.1 < 0.0 && high.0 < f64::MAX / 4.0 {
+        (low, high) = ((high.0, Some(high.1)), (2.0 * high.0, f(2.0 * high.0)));
     }
-    let mut low = 0.5 * high;
-    while f(low) > 0.0 && low > 1e-300 {
-        high = low;
-        low *= 0.5;
+    let mut known = (low.0, low.1.unwrap_or_else(|| f(low.0)));
+    while known.1 > 0.0 && known.0 > 1e-300 {
+        (high, known) = (known, (0.5 * known.0, f(0.5 * known.0)));
     }
-    let (mut f_low, mut f_high) = (f(low), f(high));
-    for _ in 0..80 {
-        if f_low == 0.0 {
-            return low;
+    bracketed(f, known, high, accuracy)
+}
+
+/// Root between two places with values of different signs, by the method of T. R. Chandrupatla (1997): inverse quadratic
+/// interpolation where it is trusted, else halving.
+fn bracketed(f: &dyn Fn(f64) -> f64, low: (f64, f64), high: (f64, f64), accuracy: f64) -> f64 {
+    // The newest place, the one on the other side of the root, and the one before.
+    let (mut a, mut b, mut c);
+    (a, b) = (high, low);
+    let mut part = 0.5;
+    for _ in 0..200 {
+        let nearest = if a.1.abs() < b.1.abs() { a } else { b };
+        let least = 0.5 * accuracy * nearest.0 / (b.0 - a.0).abs();
+        if nearest.1 == 0.0 || least.is_nan() || least > 0.5 {
+            return nearest.0;
         }
-        if f_high == 0.0 {
-            return high;
+        let at = a.0 + f64::clamp(part, least, 1.0 - least) * (b.0 - a.0);
+        let new = (at, f(at));
+        if (new.1 > 0.0) == (a.1 > 0.0) {
+            c = a;
+        } else {
+            (c, b) = (b, a);
         }
-        let middle = 0.5 * (low + high);
-        if high - low <= 1e-13 * middle {
-            break;
-        }
-        let f_middle = f(middle);
-        let spread = (f_middle * f_middle - f_low * f_high).sqrt();
-        let step = if spread > 0.0 { (middle - low) * f_middle / spread } else { 0.0 };
-        let better = (middle - step).clamp(low, high);
-        let f_better = f(better);
-        for (t, value) in [(middle, f_middle), (better, f_better)] {
-            if value <= 0.0 && t > low {
-                (low, f_low) = (t, value);
+        a = new;
+        let (xi, phi) = ((a.0 - b.0) / (c.0 - b.0), (a.1 - b.1) / (c.1 - b.1));
+        part = if phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi {
+            a.1 / (b.1 - a.1) * c.1 / (b.1 - c.1)
+                + (c.0 - a.0) / (b.0 - a.0) * a.1 / (c.1 - a.1) * b.1 / (c.1 - b.1)
+        } else {
+            0.5
+        };
+    }
+    if a.1.abs() < b.1.abs() { a.0 } else { b.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::Cell;
+
+    use super::*;
+
+    #[test]
+    fn roots_are_found_wherever_the_search_begins_in_few_values() {
+        let functions: [(&dyn Fn(f64) -> f64, f64); 4] = [
+            (&|x| x * x * x - 8.0, 2.0),
+            (&|x| libm::log(x) - 1.0, std::f64::consts::E),
+            // Flat on both sides, and without an end on one.
+            (&|x| libm::erf(50.0 * (x - 0.3)), 0.3),
+            (&|x| if x > 7.0 { f64::INFINITY } else { x - 5.0 }, 5.0),
+        ];
+        for (function, root) in functions {
+            for start in [1e-3, 0.2, 1.0, 3.0, 4e4] {
+                let values = Cell::new(0);
+                let counted = |x: f64| {
+                    values.set(values.get() + 1);
+                    function(x)
+                };
+                let found = rising_root(&counted, start);
+                assert!((found / root - 1.0).abs() < 2e-13, "{found} {root} from {start}");
+                let search = libm::log2(start / root).abs() as u32 + 2;
+                assert!(values.get() <= search + 15, "{} values for {root} from {start}", values.get());
             }
-            if value >= 0.0 && t < high {
-                (high, f_high) = (t, value);
-            }
         }
+        assert_eq!(rising_root(&|x| x - 4.0, 4.0), 4.0);
+        let near = rising_root_within(&|x| x * x - 2.0, 1.0, 1e-3);
+        assert!((near - std::f64::consts::SQRT_2).abs() < 1e-3 * near, "{near}");
     }
-    0.5 * (low + high)
 }

@@ -102,7 +102,7 @@ impl Analysis {
             (process, estimate(data, &Model { process, resolution: None, units_differ: false, ..model }))
         };
         let alternatives = if arguments.compare { others.map(alternative).collect() } else { Vec::new() };
-        let compared = if arguments.compare { compared(data, &model) } else { Vec::new() };
+        let compared = if arguments.compare { compared(data, &fit, units.as_ref()) } else { Vec::new() };
         let of_units = fit.cv().map(|_| fit.parameters().len() - 1);
         let interval = |at| match &units {
             Some(found) if Some(at) == of_units => found.cv_interval(data, LEVEL).ok(),
@@ -135,28 +135,35 @@ impl Analysis {
     }
 }
 
-/// Every process with units alike, and, of several units, with units that differ; readings with a gauge's step by the process at hand.
-fn compared(data: &Observations, model: &Model) -> Vec<Compared> {
+impl Criteria {
+    fn of(fit: &Fit) -> Self {
+        Self { log_likelihood: fit.log_likelihood, aic: fit.aic(), bic: fit.bic(), boundary: false }
+    }
+
+    fn of_units(found: &Heterogeneity) -> Self {
+        let log_likelihood = found.fit.log_likelihood;
+        Self { log_likelihood, aic: found.aic(), bic: found.bic(), boundary: found.boundary }
+    }
+}
+
+/// Every process with units alike, and, of several units, with units that differ; readings with a gauge's step by the process at hand,
+/// whose fits are known.
+fn compared(data: &Observations, fit: &Fit, units: Option<&Heterogeneity>) -> Vec<Compared> {
+    let own = fit.model;
     let rows = PROCESSES.into_iter().flat_map(|process| [(process, false), (process, true)]);
-    let takes = |process| model.resolution.is_none() || process == model.process;
+    let takes = |process| own.resolution.is_none() || process == own.process;
     let rows = rows.filter(|(process, random)| !random || (data.units.len() > 1 && takes(*process)));
     let row = |(process, random): (&'static dyn Process, bool)| {
         // The process at hand alone takes readings as rounded.
-        let resolution = model.resolution.filter(|_| process == model.process);
-        let model = Model { process, resolution, units_differ: false, ..*model };
-        let found = match random {
-            true => estimate_units(data, &model).map(|found| Criteria {
-                log_likelihood: found.fit.log_likelihood,
-                aic: found.aic(),
-                bic: found.bic(),
-                boundary: found.boundary,
-            }),
-            false => estimate(data, &model).map(|fit| Criteria {
-                log_likelihood: fit.log_likelihood,
-                aic: fit.aic(),
-                bic: fit.bic(),
-                boundary: false,
-            }),
+        let is_own = process == own.process;
+        let resolution = own.resolution.filter(|_| is_own);
+        let model = Model { process, resolution, units_differ: false, ..own };
+        let found = match (random, units) {
+            (true, Some(found)) if is_own => Ok(Criteria::of_units(found)),
+            (true, _) => estimate_units(data, &model).map(|found| Criteria::of_units(&found)),
+            (false, Some(found)) if is_own => Ok(Criteria::of(&found.plain)),
+            (false, None) if is_own => Ok(Criteria::of(fit)),
+            (false, _) => estimate(data, &model).map(|fit| Criteria::of(&fit)),
         };
         Compared { process, random, found }
     };

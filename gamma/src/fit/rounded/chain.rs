@@ -1,7 +1,7 @@
 //! Along the readings of a unit, window by window. In: laws of increments, readings. Out: the chance of each reading given those
 //! before it. Never knows where laws are from.
 
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 use super::kernel::{By, Kernel, Known, Laws};
 use super::window::{Even, Place, Window};
@@ -12,10 +12,10 @@ pub struct Chain {
     rounding: Rounding,
     window: Window,
     /// What is known by law and difference of readings.
-    followed: HashMap<[u64; 3], Followed>,
-    known_laws: HashMap<[u64; 2], Known>,
+    followed: FxHashMap<[u64; 3], Followed>,
+    known_laws: FxHashMap<[u64; 2], Known>,
     /// Logarithms of wear, by difference of readings, where chances are found by densities.
-    logarithms: Option<HashMap<u64, Vec<f64>>>,
+    logarithms: Option<FxHashMap<u64, Vec<f64>>>,
 }
 
 /// What is known of one law and one difference of readings.
@@ -31,12 +31,18 @@ struct Followed {
 impl Chain {
     pub fn new(rounding: Rounding) -> Self {
         let window = Window::new(rounding);
-        Self { rounding, window, followed: HashMap::new(), known_laws: HashMap::new(), logarithms: None }
+        Self {
+            rounding,
+            window,
+            followed: FxHashMap::default(),
+            known_laws: FxHashMap::default(),
+            logarithms: None,
+        }
     }
 
     /// The same for many laws: chances are found by densities where these are smooth, good to 1e-9.
     pub fn of_many_laws(rounding: Rounding) -> Self {
-        Self { logarithms: Some(HashMap::new()), ..Self::new(rounding) }
+        Self { logarithms: Some(FxHashMap::default()), ..Self::new(rounding) }
     }
 
     /// The gauge's step.
@@ -94,14 +100,7 @@ impl Chain {
                 None => own.after_exact.get_or_insert_with(|| kernel.after_exact(known, by)).clone(),
                 Some(masses) => {
                     let chances = own.chances.get_or_insert_with(|| kernel.chances(known, by));
-                    // Part by part of the window before: sums side by side, each in the order of the parts.
-                    let mut next = vec![0.0; parts];
-                    for (i, mass) in masses.iter().enumerate() {
-                        for (into, chance) in next.iter_mut().zip(&chances[parts - 1 - i..]) {
-                            *into += mass * chance;
-                        }
-                    }
-                    next
+                    passed(masses, chances)
                 }
             };
             let weighed: Vec<f64> =
@@ -125,4 +124,32 @@ impl Chain {
             place = Place::Parts(weighed.into_iter().map(|mass| mass / chance).collect());
         }
     }
+}
+
+/// Sums that are kept side by side in registers.
+const BLOCK: usize = 8;
+
+/// Masses of the parts of the next window, from those of the one before and the chances of all differences of parts: each summed up in the
+/// order of the parts before.
+fn passed(masses: &[f64], chances: &[f64]) -> Vec<f64> {
+    let parts = masses.len();
+    let mut next = vec![0.0; parts];
+    // The last difference to a part comes first.
+    let from = |i: usize| &chances[parts - 1 - i..];
+    let mut blocks = next.chunks_exact_mut(BLOCK);
+    let mut first = 0;
+    for block in &mut blocks {
+        let mut sums = [0.0; BLOCK];
+        for (i, mass) in masses.iter().enumerate() {
+            for (sum, chance) in sums.iter_mut().zip(&from(i)[first..first + BLOCK]) {
+                *sum += mass * chance;
+            }
+        }
+        block.copy_from_slice(&sums);
+        first += BLOCK;
+    }
+    for (at, sum) in (first..).zip(blocks.into_remainder()) {
+        *sum = masses.iter().enumerate().map(|(i, mass)| mass * from(i)[at]).sum();
+    }
+    next
 }

@@ -1,10 +1,11 @@
 //! The law of one increment between two windows. In: a process, a difference of readings. Out: chances to go from a part to a part, or
 //! the slope of a density that hardly changes. Never knows what came before.
 
-use std::collections::HashMap;
 use std::ops::RangeInclusive;
 
-use super::nodes::Nodes;
+use rustc_hash::FxHashMap;
+
+use super::nodes::{Density, Nodes};
 use super::window::{Even, Window};
 use crate::data::{Increment, Rounding};
 use crate::process::Process;
@@ -25,11 +26,12 @@ pub struct Laws<'a> {
 }
 
 /// What is known of one law at places of the lattice that all windows share, so that neighbouring readings need few of their own:
-/// the distribution function and what it lacks to 1, and the integrals of both.
+/// the distribution function and what it lacks to 1, and the integrals of both. And its density, once that was asked for.
 #[derive(Default)]
 pub(super) struct Known {
-    chances: [HashMap<u64, f64>; 2],
-    integrals: [HashMap<u64, f64>; 2],
+    density: Option<Option<Density>>,
+    chances: [FxHashMap<u64, f64>; 2],
+    integrals: [FxHashMap<u64, f64>; 2],
 }
 
 /// How chances of a law are found.
@@ -37,7 +39,7 @@ pub(super) enum By<'a> {
     /// By its integrals alone.
     Integrals,
     /// By its density, where that is smooth enough; logarithms of wear are kept for all laws.
-    Densities(&'a mut HashMap<u64, Vec<f64>>),
+    Densities(&'a mut FxHashMap<u64, Vec<f64>>),
 }
 
 /// Increments over one exposure whose readings differ by a number of steps.
@@ -119,9 +121,10 @@ impl<'a> Kernel<'a> {
     }
 
     /// Densities at the places of the lattice and halfway between them, up to `reach` half parts from the middle.
-    fn nodes(&self, by: By<'_>, reach: usize) -> Option<Nodes> {
+    fn nodes(&self, known: &mut Known, by: By<'_>, reach: usize) -> Option<Nodes> {
         let By::Densities(logarithms) = by else { return None };
-        let terms = self.process.density_terms(self.logs)?;
+        let of_law = || Density::new(self.process.density_terms(self.logs)?, self.part);
+        let density = (*known.density.get_or_insert_with(of_law))?;
         let (last, half) = (2 * self.parts, 0.5 * self.part);
         let wear = |at: usize| self.middle + half * (at as f64 - last as f64);
         let ln = |wear: f64| if wear > 0.0 { libm::log(wear) } else { f64::NAN };
@@ -129,13 +132,13 @@ impl<'a> Kernel<'a> {
             .entry(self.middle.to_bits())
             .or_insert_with(|| (0..=2 * last).map(|at| ln(wear(at))).collect());
         let first = last - reach;
-        Nodes::new(terms, self.part, wear(first), &logs[first..=last + reach])
+        Nodes::new(density, self.part, wear(first), &logs[first..=last + reach])
     }
 
     /// Chances of all differences of parts, from -(parts - 1) on.
     pub fn chances(&self, known: &mut Known, by: By<'_>) -> Vec<f64> {
         let last = self.parts as isize;
-        if let Some(nodes) = self.nodes(by, 2 * self.parts) {
+        if let Some(nodes) = self.nodes(known, by, 2 * self.parts) {
             // Of differences from `smooth` on; those below by integrals.
             let smooth = (1..2 * self.parts).find(|at| nodes.is_smooth(2 * at)).unwrap_or(2 * self.parts);
             let mut chances = match smooth {
@@ -172,7 +175,7 @@ impl<'a> Kernel<'a> {
     /// Masses of the parts of the next window before it is read, after wear that is known exactly.
     pub fn after_exact(&self, known: &mut Known, by: By<'_>) -> Vec<f64> {
         // Middles of parts are odd numbers of half parts from the first edge, and nodes begin one before that.
-        let nodes = self.nodes(by, self.parts + 1);
+        let nodes = self.nodes(known, by, self.parts + 1);
         let smooth = |k: &usize| nodes.as_ref().is_some_and(|nodes| nodes.is_smooth(2 * k + 2));
         let first = (0..self.parts).find(smooth).unwrap_or(self.parts);
         let is_upper = first > 0 && self.below(self.middle) > 0.5;

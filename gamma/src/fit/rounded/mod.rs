@@ -17,10 +17,9 @@ mod nodes;
 mod units;
 mod window;
 
-use std::collections::HashSet;
-
 use rand::RngExt;
 use rand::distr::Open01;
+use rustc_hash::FxHashSet;
 
 use crate::data::{Increment, Rounding};
 use crate::random::Stream;
@@ -68,7 +67,7 @@ pub struct Windows {
 /// Readings over whose windows the law is not even; each is followed for so many parameters of its unit.
 pub fn windows(laws: Laws<'_>, increments: &[Increment], rounding: Rounding, places: usize) -> Windows {
     let window = Window::new(rounding);
-    let (mut count, mut known) = (0, HashSet::new());
+    let (mut count, mut known) = (0, FxHashSet::default());
     for increment in increments {
         let kernel = Kernel::new(laws, increment, rounding, &window);
         if kernel.even().is_none() {

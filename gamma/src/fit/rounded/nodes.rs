@@ -12,6 +12,14 @@ const PART: [f64; 3] = [19.0 / 30.0, 17.0 / 90.0, -1.0 / 180.0];
 /// 1e-9.
 const SMOOTH: f64 = 0.215;
 
+/// The density of a law: terms c, p, r of its logarithm c + p ln wear - r wear, and from where on it is smooth.
+#[derive(Clone, Copy)]
+pub(super) struct Density {
+    terms: [f64; 3],
+    /// Wear below which it is not.
+    least: f64,
+}
+
 /// Densities at nodes that are half a part apart.
 pub(super) struct Nodes {
     densities: Vec<f64>,
@@ -20,11 +28,11 @@ pub(super) struct Nodes {
     first: usize,
 }
 
-impl Nodes {
-    /// From terms c, p, r of the ln density c + p ln wear - r wear, the first node's wear and the logarithms of all; None where the
-    /// density is smooth nowhere.
-    pub fn new([constant, power, rate]: [f64; 3], part: f64, wear: f64, logs: &[f64]) -> Option<Self> {
+impl Density {
+    /// None where it is smooth nowhere.
+    pub fn new(terms: [f64; 3], part: f64) -> Option<Self> {
         // (P / wear + r)^6 is no less than the sixth derivative beside the density.
+        let [_, power, rate] = terms;
         let mut falling = 1.0_f64;
         let root = |j: i32| {
             falling *= (power - f64::from(j)).abs();
@@ -32,10 +40,14 @@ impl Nodes {
         };
         let most = (0..6).map(root).fold(0.0, f64::max);
         let left = SMOOTH - rate * part;
-        if left <= 0.0 {
-            return None;
-        }
-        let least = (most * part / left).max(0.5 * part);
+        (left > 0.0).then(|| Self { terms, least: (most * part / left).max(0.5 * part) })
+    }
+}
+
+impl Nodes {
+    /// From the first node's wear and the logarithms of all; None where the density is smooth at none of them.
+    pub fn new(density: Density, part: f64, wear: f64, logs: &[f64]) -> Option<Self> {
+        let Density { terms: [constant, power, rate], least } = density;
         let half = 0.5 * part;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
         let first = libm::ceil((least - wear) / half).max(0.0) as usize;

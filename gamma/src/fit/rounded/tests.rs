@@ -1,11 +1,12 @@
 //! Likelihoods of rounded readings against sums over fine grids.
 
+use rustc_hash::FxHashMap;
+
 use super::kernel::{By, Kernel, Known};
 use super::window::{Place, Window};
 use super::*;
 use crate::process::{Gamma, Process};
 use crate::special::normal_cdf;
-use std::collections::HashMap;
 
 fn laws(logs: &dyn Fn(&Increment) -> [f64; 2]) -> Laws<'_> {
     Laws { process: &Gamma, logs }
@@ -127,7 +128,7 @@ fn chances_by_densities_are_those_by_integrals() {
         for (alpha, beta) in [(0.3_f64, 0.5_f64), (2.0, 1.5), (8.0, 3.0), (20.0, 20.0)] {
             for steps in [0.0, 1.0, 2.0, 5.0] {
                 let kernel = Kernel::of(&Gamma, [alpha.ln(), beta.ln()], (steps, rounding), &window);
-                let mut logarithms = HashMap::new();
+                let mut logarithms = FxHashMap::default();
                 let mut both = |of: &mut dyn FnMut(By<'_>) -> Vec<f64>| {
                     [of(By::Integrals), of(By::Densities(&mut logarithms))]
                 };
