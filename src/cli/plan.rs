@@ -9,8 +9,8 @@ use std::path::Path;
 use linkwear_gamma::life::{Estimate, LifeError, Lifetime, ObservedLives, OperatingState, PossibleLives};
 use linkwear_gamma::plan::{
     AgeBands, AgePlan, ConditionPlan, Costs, Ends as PlanEnds, HiddenPlan, InUse, LookBands, Looks,
-    Monitored, PlanError, PlannedLife, Spares, Worth, age_bands, best_age, best_hidden, best_inspection,
-    look_bands, spares, worth_of_a_look,
+    Monitored, PlanError, PlannedLife, Spares, Standstill, Worth, age_bands, best_age, best_hidden,
+    best_inspection, look_bands, spares, worth_of_a_look,
 };
 use linkwear_gamma::{FitFile, Prediction};
 use serde_json::{Value, json};
@@ -213,8 +213,12 @@ fn plans(arguments: &PlanArguments, source: &Source, costs: &Costs) -> Result<Pl
         plans.hidden = Some(best_hidden(law, costs, &looks, arguments.interval)?);
     }
     if let (Some(parts), Some(horizon)) = (arguments.parts, arguments.horizon) {
+        let standstill = Standstill { preventive: costs.preventive_time, failure: costs.failure_time };
         let of = |age: Option<f64>| {
-            source.with_life(&|life| spares(&PlannedLife { life, age }, parts, horizon, arguments.confidence))
+            let asked = (parts, horizon);
+            source.with_life(&|life| {
+                spares(&PlannedLife { life, age }, standstill, asked, arguments.confidence)
+            })
         };
         let by_age = age.age.map(|at| of(Some(at))).transpose()?;
         plans.spares = Some((of(None)?, by_age));

@@ -1,12 +1,14 @@
-//! Spare parts for a fleet over a time. In: law of the time in use, parts, time. Out: how many replacements there will be,
+//! Spare parts for a fleet over a time. In: law of the time in use, standstills, parts, time. Out: how many replacements there will be,
 //! and how many spares are enough with a given probability. Never knows wear, costs.
 //!
-//! Replacements of one part are a renewal process: the k-th comes after the sum of k lives, whose law is a convolution.
-//! Those of a fleet are a sum over its parts.
+//! Replacements of one part are a renewal process: the k-th comes after k lives with k - 1 standstills between them, whose law is a
+//! convolution. Those of a fleet are a sum over its parts.
 
 use super::error::PlanError;
-use crate::error::{LifeError, positive, probability};
+use crate::error::{LifeError, non_negative, positive, probability};
 use crate::life::Lifetime;
+
+use super::age::PlannedLife;
 
 /// Steps within a standard deviation of the lives, over which they are convolved. The rule of trapezia is exact to the square
 /// of a step: for exponential lives, ten of them within the time, probabilities come out to 1e-6.
@@ -40,19 +42,35 @@ pub struct Spares {
     pub first: usize,
 }
 
+/// How long a replacement takes, while nothing wears, in the unit of the life.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Standstill {
+    /// One at the age that is planned.
+    pub preventive: f64,
+    /// One after a failure.
+    pub failure: f64,
+}
+
 /// Replacements of `parts` parts, all new at the start, within `time`, and the spares that are enough with probability
 /// `confidence`.
 ///
 /// # Errors
-/// [`PlanError::Life`] for a time or probability out of range, [`PlanError::TooMany`].
-pub fn spares(life: &dyn Lifetime, parts: usize, time: f64, confidence: f64) -> Result<Spares, PlanError> {
+/// [`PlanError::Life`] for a time, a standstill or a probability out of range, [`PlanError::TooMany`].
+pub fn spares(
+    life: &PlannedLife<'_>,
+    standstill: Standstill,
+    (parts, time): (usize, f64),
+    confidence: f64,
+) -> Result<Spares, PlanError> {
     positive("the time planned for", time)?;
+    non_negative("the time of a planned replacement", standstill.preventive)?;
+    non_negative("the standstill after a failure", standstill.failure)?;
     probability(confidence)?;
     let too_many = |each| PlanError::TooMany { parts, each };
     if parts == 0 || parts > FLEET {
         return Err(too_many(0));
     }
-    let one = replacements(life, time)?.ok_or(too_many(MOST))?;
+    let one = replacements(life, standstill, time)?.ok_or(too_many(MOST))?;
     let mean_of_one: f64 = one.iter().enumerate().map(|(k, p)| k as f64 * p).sum();
     let fleet = many(Counts { first: 0, of: one }, parts);
     let (mut enough, mut needed) = (0.0, fleet.first + fleet.of.len().saturating_sub(1));
@@ -73,25 +91,39 @@ pub fn spares(life: &dyn Lifetime, parts: usize, time: f64, confidence: f64) -> 
 }
 
 /// Probabilities of 0, 1, 2, .. replacements of one part within `time`; None if they are too many.
-fn replacements(life: &dyn Lifetime, time: f64) -> Result<Option<Vec<f64>>, LifeError> {
+fn replacements(
+    life: &PlannedLife<'_>,
+    standstill: Standstill,
+    time: f64,
+) -> Result<Option<Vec<f64>>, LifeError> {
     let spread = (life.quantile(0.75)? - life.quantile(0.25)?) / QUARTILES;
     let median = life.quantile(0.5)?;
-    if time > MOST as f64 * median {
+    if time > MOST as f64 * (median + standstill.preventive.min(standstill.failure)) {
         return Ok(None);
     }
     let spread = spread.max(NARROWEST * median);
     let steps = (STEPS * time / spread).clamp(STEPS_BETWEEN.0, STEPS_BETWEEN.1) as usize;
     let step = time / steps as f64;
-    let failed: Vec<f64> = (0..=steps).map(|i| life.failed(step * i as f64)).collect();
-    let within: Vec<f64> = failed.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    // Parts that fail within each step, and those that are replaced at their age.
+    let until = |i: usize| life.life.failed((step * i as f64).min(life.age.unwrap_or(f64::INFINITY)));
+    let failed: Vec<f64> = (0..=steps).map(until).collect();
+    let ended: Vec<f64> = (0..=steps).map(|i| life.failed(step * i as f64)).collect();
+    let within = |all: &[f64]| all.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<f64>>();
+    let failing = within(&failed);
+    let planned: Vec<f64> = within(&ended).iter().zip(&failing).map(|(all, failing)| all - failing).collect();
     // Probability that the k-th replacement comes until each point of time.
     let mut before = vec![1.0; steps + 1];
     let mut counts = Vec::new();
     for k in 0.. {
-        // A life that ends within step j leaves what is left from its middle on: the mean of both ends.
+        // A life that ends within a step leaves what is left from its middle and the standstill on. The first replacement counts when it
+        // begins.
+        let rest = |standstill: f64| left_after(&before, if k == 0 { 0.0 } else { standstill / step });
+        let [after_failure, after_plan] = [standstill.failure, standstill.preventive].map(rest);
         let mut after = vec![0.0; steps + 1];
         for (i, sum) in after.iter_mut().enumerate() {
-            *sum = (0..i).map(|j| within[j] * 0.5 * (before[i - j] + before[i - j - 1])).sum();
+            *sum = (0..i)
+                .map(|j| failing[j] * after_failure[i - j - 1] + planned[j] * after_plan[i - j - 1])
+                .sum();
         }
         counts.push((before[steps] - after[steps]).max(0.0));
         if after[steps] < LEFT_OUT {
@@ -103,6 +135,17 @@ fn replacements(life: &dyn Lifetime, time: f64) -> Result<Option<Vec<f64>>, Life
         before = after;
     }
     Ok(Some(counts))
+}
+
+/// What a function over steps is half a step and `standstill` steps before the end of each; 0 before its begin.
+fn left_after(of: &[f64], standstill: f64) -> Vec<f64> {
+    let value = |end: usize| {
+        let place = end as f64 - 0.5 - standstill;
+        let (first, part) = (place.floor(), place - place.floor());
+        let at = |place: f64| if place < 0.0 { 0.0 } else { of[place as usize] };
+        (1.0 - part) * at(first) + part * at(first + 1.0)
+    };
+    (1..of.len()).map(value).collect()
 }
 
 /// Probabilities of `first`, `first + 1`, ..
