@@ -44,6 +44,10 @@ pub fn read_inputs(table: &CsvTable<'_>, description: &Description) -> Result<Sa
             };
             return Err(fault(format!("the mechanism has no input `{name}`"), help));
         };
+        if columns.iter().any(|(known, _)| *known == *input.name) {
+            let message = format!("two columns give the input `{}`", input.name);
+            return Err(fault(message, "delete one of them".to_owned()));
+        }
         // The SI unit of an input is written by the generator, so it reads back.
         let dimension = size_of(&input.unit).map_or(Dimension::NONE, |(_, dimension)| dimension);
         columns.push((input.name.to_string(), in_si(dimension, &input.unit)?));

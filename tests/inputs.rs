@@ -183,7 +183,7 @@ fn wrong_tables_are_refused_with_the_cure() {
         ("t [s],torque [N]\n0,0\n2,0\n", "`N` is no unit of `torque`", "N m"),
         ("torque [N m]\n0\n2\n", "no column gives the time", "t [s]"),
         ("t [s],time [s]\n0,0\n2,0\n", "two columns give the time", "delete one"),
-        ("t [s],load [N],load [N]\n0,0,0\n2,0,0\n", "`load` is given twice", ""),
+        ("t [s],load [N],load [N]\n0,0,0\n2,0,0\n", "two columns give the input `load`", "delete one"),
         ("t [s],load [N]\n0,0\n2,0\n1,0\n", "not later than the one before", "times rising"),
         ("t [s],load [N]\n0,0\n2,x\n", "`x`, not a finite number", ""),
         ("t [s],load [N]\n", "there is none", "one row"),

@@ -433,3 +433,29 @@ fn mistakes_are_told_in_the_file_that_they_are_in() {
     }
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
 }
+
+#[test]
+fn what_has_no_direction_may_stand_in_a_turned_part() {
+    // A ball with a spring swings a bar that bends alike in both planes.
+    let part = |held: &str, modes: u32| {
+        format!(
+            "spec = 1\nname = \"part\"\n[points]\nO = [0, 0, 0]\nA = [\"1 m\", 0, 0]\n[bodies]\n\
+             bar = {{ rod = [\"O\", \"A\"], radius = \"9 mm\", density = \"7850 kg/m^3\", flexible = {{ modes = {modes}, young = \"70 GPa\" }} }}\n\
+             [joints]\nS = {{ spherical = [\"ground\", \"bar\"], at = \"O\", {held} }}\n"
+        )
+    };
+    let host = "spec = 1\nname = \"host\"\ngravity = [0, 0, 0]\n[include.p]\nfile = \"part.toml\"\n\
+                rotation = { axis = [1, 2, 3], angle = \"50 deg\" }\n";
+    let compiled = |held: &str, modes: u32| {
+        let files = [("host.toml", host), ("part.toml", &part(held, modes))];
+        Folder::new("direction", &files).compile("host.toml", &[])
+    };
+    let spring = "spring = { stiffness = \"2 N m\" }, damping = \"1 N m s\"";
+    let turned = compiled(spring, 2);
+    assert!(turned.is_ok(), "{}", turned.err().map_or_else(String::new, |errors| errors.to_string()));
+    let refused = compiled("force = { q1 = \"1 N m\" }", 2).expect_err("along axes").to_string();
+    assert!(refused.contains("along the axes of the part"), "{refused}");
+    // One mode bends in one plane, which would be another in the whole.
+    let refused = compiled(spring, 1).expect_err("one plane").to_string();
+    assert!(refused.contains("part.toml:7") && refused.contains("keeps the one along the axes"), "{refused}");
+}

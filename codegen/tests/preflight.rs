@@ -1,6 +1,7 @@
 //! What `check` answers does not depend on size or speed, and is true of linkages that once were misjudged.
 
 use linkwear_codegen::compile::{Compiled, Options, compile};
+use linkwear_codegen::diagnostic::Diagnostics;
 use linkwear_codegen::source::SourceFile;
 
 const SLIDER_CRANK: &str = r#"
@@ -207,4 +208,42 @@ fn a_linkage_with_clearance_is_judged_as_if_it_had_none() {
     let short = joint(&short, "Q = [\"0.19*s\", 0, 0]", "Q = [\"0.19*s\", \"0.3*s\", 0]");
     let short = joint(&short, guide, "at = \"Q\", axis = [1, 0, 0]");
     assert_eq!(codes(&short), ["E0601"]);
+}
+
+/// What warnings say of a file, with their places.
+fn warnings(body: &str) -> String {
+    let source = file(body, "");
+    let compiled = compile(&source, &Options::default()).unwrap_or_else(|errors| panic!("{errors}"));
+    Diagnostics::from_list(compiled.warnings).located(&source).to_string()
+}
+
+#[test]
+fn the_body_that_flies_is_the_loose_one() {
+    let inertia = "inertia = [\"1e-3 kg m^2\", \"1e-3 kg m^2\", \"1e-3 kg m^2\"]";
+    let body = format!(
+        "[points]\nA = {{ at = [0, 0, 0], on = \"a\" }}\nB = {{ at = [\"0.1*s\", 0, 0], on = \"b\" }}\n[bodies]\n\
+         a = {{ mass = \"1 kg\", centre = \"A\", {inertia} }}\nb = {{ mass = \"2 kg\", centre = \"B\", {inertia} }}\n[joints]\n\
+         F = {{ free = [\"ground\", \"a\"], at = \"A\" }}\n\
+         J = {{ revolute = [\"a\", \"b\"], at = \"A\", axis = [0, 0, 1], drive = \"2*pi*speed*t\" }}\n"
+    );
+    // The other body hangs by one joint, which is driven.
+    let told = warnings(&body);
+    assert!(told.contains("W0115") && told.contains("F = {") && !told.contains("b = {"), "{told}");
+}
+
+#[test]
+fn what_a_file_integrates_beside_contacts_and_modes_is_no_matter_of_positions() {
+    let body = "[points]\nO = [0, 0, 0]\nA = [\"0.2*s\", \"0.1*s\", 0]\nB = [\"0.4*s\", 0, 0]\n[bodies]\n\
+        a = { rod = [\"O\", \"A\"], radius = \"5 mm\", density = \"2700 kg/m^3\", flexible = { modes = 1, young = \"70 GPa\" } }\n\
+        b = { rod = [\"A\", \"B\"], radius = \"4 mm\", density = \"2700 kg/m^3\" }\n\
+        c = { mass = \"0.1 kg\", centre = \"B\" }\n[joints]\n\
+        R = { revolute = [\"ground\", \"a\"], at = \"O\", axis = [0, 0, 1], drive = \"0.2*sin(2*pi*speed*t)\" }\n\
+        J = { revolute = [\"a\", \"b\"], at = \"A\", axis = [0, 0, 1] }\n\
+        P = { prismatic = [\"ground\", \"c\"], at = \"B\", axis = [1, 0, 0] }\n\
+        K = { revolute = [\"b\", \"c\"], at = \"B\", axis = [0, 0, 1] }\n\
+        [clearance.J]\nradial = \"0.1 mm\"\njournal_radius = \"5 mm\"\nlength = \"10 mm\"\nmodulus = \"1 GPa\"\nrestitution = 0.8\n";
+    let without = warnings(body);
+    let state = "[states]\nx = { initial = \"0 rad\", rate = \"R.v\" }\n";
+    // A state changes nothing about contacts and modes.
+    assert_eq!(warnings(&format!("{body}{state}")), without);
 }

@@ -389,3 +389,42 @@ fn wrong_uses_are_answered() {
     let e = refused(&loose);
     assert!(e.contains("E0306") && e.contains("clearance"), "{e}");
 }
+
+#[test]
+fn bearings_of_wheels_rub_by_the_force_of_rigid_teeth() {
+    // Teeth that press wheels apart by tan 20 degrees of what they transmit; the second bearing has a radius of 10 mm and a coefficient of .1.
+    let wheel = |name: &str, at: &str, inertia: f64| {
+        format!(
+            "{name} = {{ mass = \"1 kg\", centre = \"{at}\", inertia = [\"{inertia} kg m^2\", \"{inertia} kg m^2\", \"{inertia} kg m^2\"] }}\n"
+        )
+    };
+    let text = |second: &str| {
+        "gravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\nP = [\"80 mm\", 0, 0]\n[bodies]\n".to_owned()
+            + &wheel("a", "O", 1e-3)
+            + &wheel("b", "P", 1e-2)
+            + "[joints]\nA = { revolute = [\"ground\", \"a\"], at = \"O\", axis = [0, 0, 1], force = \"2 N m\" }\n\
+               B = { revolute = [\"ground\", \"b\"], at = \"P\", axis = [0, 0, 1], "
+            + second
+            + " }\n[couplings]\nm = { gears = [\"a\", \"b\"], teeth = [20, 60] }\n"
+    };
+    let tangent = (20.0_f64).to_radians().tan();
+    // J1 a = 2 - .02 F, J2 a / 3 = .06 F - M; F and a are those of both wheels where M = m F.
+    let solved = |m: f64| {
+        let force = 2000.0 / (20.0 + 3.0 * (0.06 - m) / 1e-2);
+        (force, 3.0 * (0.06 - m) * force / 1e-2)
+    };
+    let rubbing = run(
+        &text(&format!("dry_friction = {{ coefficient = 0.1, radius = \"10 mm\", onset = \"1e-6 rad/s\" }}")),
+        0.5,
+    );
+    let (force, acceleration) = solved(1e-3 * tangent.hypot(1.0));
+    near(at_end(&rubbing, "m.Ft").abs(), force, EXACT);
+    near(at_end(&rubbing, "A.a"), acceleration, EXACT);
+    energy_is_kept(&rubbing, 1e-7);
+    // By a column of the force across the line of the teeth.
+    let asking = run(&text("force = \"-(1 mm)*B.Fx\""), 0.5);
+    let sign = at_end(&asking, "B.Fx").signum();
+    let (force, acceleration) = solved(-sign * 1e-3 * tangent);
+    near(at_end(&asking, "m.Ft").abs(), force, EXACT);
+    near(at_end(&asking, "A.a"), acceleration, EXACT);
+}

@@ -151,7 +151,8 @@ pub enum AssemblyError {
     /// The loops close, but not with the demanded start values.
     #[error(
         "the start values of {} cannot all be met: with them the loops stay open by {residual_m:.3e} m and \
-         {residual_rad:.3e} rad; make some of them guesses, or change them",
+         {residual_rad:.3e} rad; make some of them guesses, or change them; those that [initial] does not have follow from \
+         the drivers, which then ask for what the loops do not allow",
         names.join(", ")
     )]
     HeldPositions {
@@ -165,7 +166,8 @@ pub enum AssemblyError {
     /// Consistent speeds exist, but not with the demanded start speeds.
     #[error(
         "the start speeds of {} contradict the loops at joint `{joint}` (residual {residual:.3e} m/s or rad/s); \
-         make some of them guesses, or change them",
+         make some of them guesses, or change them; those that [initial] does not have follow from \
+         the drivers, which then ask for what the loops do not allow",
         names.join(", ")
     )]
     HeldSpeeds {

@@ -54,6 +54,8 @@ pub(crate) struct Balance<T> {
     supplied: T,
     dissipated: T,
     contact_loss: T,
+    /// What contacts stored then.
+    elastic: T,
 }
 
 /// What one joint with clearance has done.
@@ -97,6 +99,7 @@ impl<T: Scalar> Balance<T> {
             supplied: zero,
             dissipated: zero,
             contact_loss: zero,
+            elastic: zero,
         };
         balance.go_on_from(now);
         balance
@@ -135,7 +138,12 @@ impl<T: Scalar> Balance<T> {
 
     fn end_at(&mut self, now: &Energies<T>) {
         (self.kinetic, self.supplied) = (now.kinetic, now.supplied);
-        (self.dissipated, self.contact_loss) = (now.dissipated, now.contact_loss);
+        (self.dissipated, self.contact_loss, self.elastic) = (now.dissipated, now.contact_loss, now.elastic);
+    }
+
+    /// What errors are judged by: what went through, and what contacts store. One that rests under a load passes nothing on.
+    pub(crate) fn at_stake(&self) -> T {
+        self.throughput + self.elastic
     }
 }
 
@@ -208,7 +216,7 @@ impl<T: Scalar> Ledger<T> {
 
     /// How many numbers they are, with so many joints.
     pub(crate) const fn len(contacts: usize) -> usize {
-        14 + 7 * contacts
+        15 + 7 * contacts
     }
 
     /// Of numbers in that order.
@@ -233,8 +241,8 @@ impl<T: Scalar> Ledger<T> {
         let Self { balance, fastest, fastest_turning, open: [metres, radians], longest_step, joints } = self;
         let Balance { start, error, added, throughput, largest, .. } = balance;
         [start, error, added, throughput, largest].into_iter().for_each(&mut *visit);
-        let Balance { kinetic, supplied, dissipated, contact_loss, .. } = balance;
-        [kinetic, supplied, dissipated, contact_loss].into_iter().for_each(&mut *visit);
+        let Balance { kinetic, supplied, dissipated, contact_loss, elastic, .. } = balance;
+        [kinetic, supplied, dissipated, contact_loss, elastic].into_iter().for_each(&mut *visit);
         [fastest, fastest_turning, metres, radians, longest_step].into_iter().for_each(&mut *visit);
         for Touches { extremes, touching, deepest, deepest_at } in joints {
             let Extremes { normal_force, pressure, pressure_speed, penetration } = extremes;

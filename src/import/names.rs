@@ -17,13 +17,9 @@ pub struct Names {
 }
 
 impl Names {
-    /// Letters, digits and `_`, a letter first; with a number behind if it is taken.
+    /// A name as [`plain`] writes it; with a number behind if it is taken.
     pub fn fresh(&mut self, wanted: &str) -> String {
-        let mut name: String =
-            wanted.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
-        if !name.starts_with(|first: char| first.is_ascii_alphabetic()) {
-            name.insert_str(0, "x_");
-        }
+        let name = plain(wanted);
         let is_free = |name: &str| {
             let centre = format!("{name}{CENTRE}");
             !TAKEN.contains(&name) && !self.given.contains(name) && !self.given.contains(&centre)
@@ -34,4 +30,14 @@ impl Names {
         self.given.insert(format!("{own}{CENTRE}"));
         own
     }
+}
+
+/// Letters, digits and `_`, a letter first.
+pub fn plain(wanted: &str) -> String {
+    let mut name: String =
+        wanted.chars().map(|letter| if letter.is_ascii_alphanumeric() { letter } else { '_' }).collect();
+    if !name.starts_with(|first: char| first.is_ascii_alphabetic()) {
+        name.insert_str(0, "x_");
+    }
+    name
 }

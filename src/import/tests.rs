@@ -49,6 +49,11 @@ fn the_shipped_arm_compiles_held_and_floating() {
     assert_eq!((floating.bodies, floating.joints), (8, 8));
     assert!(floating.text.contains("free = [\"ground\", \"world\"]"), "{}", floating.text);
     compiled(&floating.text);
+    // Advice is by the names of the file that is made.
+    let hyphen = one("revolute", MASS, "<dynamics friction=\"0.2\"/>").replace("name=\"j\"", "name=\"j-1\"");
+    let found = from_urdf(&hyphen, Base::Fixed).expect("a robot");
+    assert!(found.text.contains("j_1 = {"), "{}", found.text);
+    assert!(found.left_out.iter().any(|line| line.contains("tanh(j_1.v/")), "{:?}", found.left_out);
     for what in ["friction of shoulder_pan", "<visual>, 9 times", "fixed joints, 3", "limits of 7", "gravity"]
     {
         assert!(held.left_out.iter().any(|line| line.contains(what)), "{what}: {:?}", held.left_out);

@@ -6,6 +6,7 @@ use super::error::ImportError;
 use super::files::Files;
 use super::mass::{Mass, Shape, together};
 use super::meshes::Meshes;
+use super::names;
 use super::place::Place;
 use super::robot::{Follows, Joint, Kind, Link, Robot};
 use super::xml::Element;
@@ -256,7 +257,7 @@ fn joint(
         }
         let friction = dynamics.number("friction", Some(0.0))?;
         if friction != 0.0 {
-            left_out.push(format!("friction of {}: a law that jumps at rest; write a smooth one as `force`, such as \"-{friction} {}*tanh({}.v/(0.01 {}))\"", joint.name, force_unit(kind), joint.name, speed_unit(kind)));
+            left_out.push(format!("friction of {}: a law that jumps at rest; write a smooth one as `force`, such as \"-{friction} {}*tanh({}.v/(0.01 {}))\"", joint.name, force_unit(kind), names::plain(&joint.name), speed_unit(kind)));
         }
     }
     if let Some(limit) = node.first("limit").filter(|_| is_one) {

@@ -315,3 +315,30 @@ fn mechanisms_without_a_life_are_told_what_they_lack() {
     let (message, help) = ask(&undriven);
     assert!(message.contains("no revolute joint is driven") && help.contains("drive = "), "{message} {help}");
 }
+
+#[test]
+fn a_journal_that_rests_under_a_steady_load_wears_as_archard_says() {
+    // Without friction nothing goes through such a contact, so that its balance of energy is nothing but error.
+    let folder = Folder::new("life-steady-load");
+    for restitution in [0.3, 0.9] {
+        let text = format!(
+            "spec = 1\nname = \"loaded\"\ngravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\n\
+             A = [\"200 mm\", 0, 0]\nB = [\"-200 mm\", 0, 0]\n[bodies]\n\
+             arm = {{ rod = [\"B\", \"A\"], radius = \"8 mm\", density = \"7850 kg/m^3\" }}\n[joints]\n\
+             R1 = {{ revolute = [\"ground\", \"arm\"], at = \"O\", axis = [0, 1, 0], drive = \"2*pi*1 Hz*t\" }}\n\
+             [forces]\nL = {{ force = \"arm\", at = \"O\", components = [0, 0, \"-500 N\"] }}\n[clearance.R1]\n\
+             radial = \"20 um\"\njournal_radius = \"10 mm\"\nlength = \"20 mm\"\nmodulus = \"115 GPa\"\n\
+             law = \"flores\"\nrestitution = {restitution}\n[wear.R1]\ncoefficient = 1e-7\nhardness = \"1 GPa\"\n\
+             threshold = \"50 um\"\narea = \"projected\"\nrevolutions_per_cycle = 1e3\nalpha = \"5 1/um\"\n"
+        );
+        let file = folder.write("loaded.toml", &text);
+        let answer = linkwear(&["life", &file, "--mean", "--format", "json"]);
+        assert_eq!(answer.code, 0, "{restitution}: {}", answer.err);
+        // k F 2 pi r over H 2 r L a revolution.
+        let per_revolution = 1e-7 * 500.0 * std::f64::consts::TAU * 0.01 / (1e9 * 2.0 * 0.01 * 0.02);
+        let expected = 50e-6 / per_revolution / 1e3;
+        let life = number(&answer.json()["mean_path"]["cycles"]);
+        // The load of the contact is that of the journal but for its turning away from the line through a few micrometres.
+        assert!((life / expected - 1.0).abs() < 1e-5, "{restitution}: {life} for {expected}");
+    }
+}

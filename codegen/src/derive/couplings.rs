@@ -4,7 +4,8 @@
 //! With factors a_i: `phi = sum a_i q_i - offset`, a Jacobian of constants, and nothing of velocities in the bias.
 
 use crate::expr::{Expr, Scope, Vec3};
-use crate::model::{ByMultiplier, Compliance, Coupling};
+use crate::id::JointId;
+use crate::model::{ByMultiplier, Compliance, Coupling, MeshSide};
 
 use super::joint_state::JointStates;
 use super::linkage::LinkIndex;
@@ -83,7 +84,7 @@ const SOFT: f64 = 1e-3;
 const NOTHING: f64 = 1e-300;
 
 /// `|x|`.
-fn size(x: Expr<'_>) -> Expr<'_> {
+pub fn size(x: Expr<'_>) -> Expr<'_> {
     (x * x + x.scope().number(NOTHING)).sqrt()
 }
 
@@ -137,20 +138,31 @@ impl<'g> Multiplied<'g> {
     }
 }
 
-/// Wrenches on the links of a coupling's wheels, each in the link's frame about its origin.
+/// How far a side's body has slid over the carrier, along axes of W at the reference pose.
+fn slid<'g>(state: &JointStates<'g>, side: &MeshSide) -> Vec3<'g> {
+    let g = state.geometry.g;
+    let along = |(joint, direction): &(JointId, [f64; 3])| {
+        state.coordinates(g, *joint).position[0] * g.vector(*direction)
+    };
+    side.slides.iter().map(along).fold(g.zero_vector(), |sum, path| sum + path)
+}
+
+/// Wrenches on the links of a coupling's wheels, each in the link's frame about its origin. Teeth meet where the carrier has them, however
+/// far a rack has slid.
 pub fn mesh_wrenches<'g>(
     state: &JointStates<'g>,
     coupling: &Coupling,
     by: &Multiplied<'g>,
 ) -> Vec<(LinkIndex, Wrench<'g>)> {
     let (geometry, linkage) = (&state.geometry, state.geometry.linkage);
-    let wrench = |side: &crate::model::MeshSide| {
+    let wrench = |side: &MeshSide| {
         let link = Some(linkage.link_of_body[side.body.index()]);
         let carrier = linkage.link(side.carrier);
         let turn = state.motion.poses.rotation_between(carrier, link);
         let to_link = |vector: Vec3<'g>| turn * geometry.turn(&linkage.frame(carrier), vector);
         let force = to_link(by.vector(side.force));
-        let place = geometry.local(link, geometry.mechanism.joint(side.joint).at);
+        let place =
+            geometry.local(link, geometry.mechanism.joint(side.joint).at) - to_link(slid(state, side));
         (link, Wrench { moment: to_link(by.vector(side.moment)) + place.cross(force), force })
     };
     coupling.meshes.iter().map(wrench).collect()

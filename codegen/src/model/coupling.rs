@@ -76,6 +76,8 @@ pub struct MeshSide {
     pub force: ByMultiplier<[f64; 3]>,
     /// Moment about the joint's point [N m], along axes of W at the reference pose.
     pub moment: ByMultiplier<[f64; 3]>,
+    /// Prismatic joints along which it slides over the carrier, each with the direction of its path, along axes of W at the reference pose.
+    pub slides: Vec<(JointId, [f64; 3])>,
     /// Its pitch circle, if it has one.
     pub pitch_circle: Option<PitchCircle>,
 }

@@ -41,7 +41,7 @@ pub fn contacts_near_modes(
     let stride = waypoints.len().div_ceil(POSITIONS).max(1);
     let mut last = 0.0;
     for waypoint in waypoints.iter().step_by(stride).skip(1) {
-        let guess = State { q: free(&layout, &waypoint.q), v: vec![0.0; layout.speeds] };
+        let guess = State { q: free(&layout, &waypoint.q, &start.q), v: vec![0.0; layout.speeds] };
         if let Some(state) = resting_contacts(&mut evaluator, waypoint.t, &guess) {
             listen(&mut evaluator, waypoint.t, &state);
             last = waypoint.t;
@@ -52,11 +52,12 @@ pub fn contacts_near_modes(
     pairs.filter_map(|((info, heard), body)| warning(mechanism, &info.joint, (heard, last), body)).collect()
 }
 
-/// The coordinates that no driver has.
-fn free(layout: &Layout, all: &[f64]) -> Vec<f64> {
+/// The coordinates that no driver has, of a position: those behind them, the file's own states, are no matter of it and stay as at the start.
+fn free(layout: &Layout, all: &[f64], start: &[f64]) -> Vec<f64> {
     let part = |group: &linkwear_runtime::Group| {
-        let first = group.all_coordinate;
-        all[first..first + group.motion.lengths().0].iter().copied()
+        let length = group.motion.lengths().0;
+        let own = all.get(group.all_coordinate..group.all_coordinate + length);
+        own.unwrap_or(&start[group.coordinate..group.coordinate + length]).iter().copied()
     };
     layout.free().flat_map(part).collect()
 }

@@ -264,10 +264,14 @@ pub fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
         ))
 }
 
-/// Some joints can never move although others do.
+/// Some joints can never move, although others do or links bend.
 pub fn rigid_part(mechanism: &Mechanism, joints: &[JointId]) -> Diagnostic {
     let names = quoted(joints.iter().map(|joint| mechanism.joint(*joint).name.as_str()));
-    Diagnostic::new(Code::RigidPart, format!("the loops let {names} never move, though other joints do"))
+    let others = match joints.len() < mechanism.joints.len() {
+        true => "though other joints do",
+        false => "and there are no other joints: links can only bend",
+    };
+    Diagnostic::new(Code::RigidPart, format!("the loops let {names} never move, {others}"))
         .help("make them `fixed` if that is meant; otherwise free one, or correct lengths and axes")
         .at_each(joints.iter().map(|joint| mechanism.joint(*joint).span), "cannot move")
 }

@@ -273,18 +273,25 @@ fn loose(mechanism: &Mechanism, analysis: &Analysis) -> Option<Diagnostic> {
          freedoms and clearances",
         analysis.mobility
     );
-    // A body that hangs by one joint is most likely what lost the other.
-    let held = |body: usize| {
-        let carrier = Carrier::Body(BodyId::new(body));
-        mechanism.joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier).count()
+    // A body that hangs by one joint is most likely what lost the other, unless that is driven or leaves it all freedom.
+    let is_hanging = |body: &usize| {
+        let carrier = Carrier::Body(BodyId::new(*body));
+        let mut own =
+            mechanism.joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier);
+        let only = own.next().filter(|_| own.next().is_none());
+        only.is_some_and(|joint| joint.drives.is_empty() && joint.model.rows() > 0)
     };
-    let hanging = (0..mechanism.bodies.len()).filter(|body| held(*body) == 1);
+    let hanging = (0..mechanism.bodies.len()).filter(is_hanging);
     let hanging: Vec<&Body> = hanging.map(|body| &mechanism.bodies[body]).collect();
+    let flying = mechanism.joints.iter().filter(|joint| joint.model.rows() == 0).map(|joint| joint.span);
+    let flying: Vec<Span> = flying.collect();
     let driven = mechanism.joints.iter().find(|joint| !joint.drives.is_empty()).map(|joint| joint.span);
-    let spans: Vec<Span> =
-        hanging.iter().map(|body| body.span).chain(driven.filter(|_| hanging.is_empty())).collect();
-    let label = if hanging.is_empty() { "driven here" } else { "hangs by one joint" };
-    Some(Diagnostic::new(Code::LooseBody, message).at_each(spans, label).help(
-        "add the joint that is missing; if a body is to swing freely, give it a start value in [initial]",
+    let is_known = hanging.is_empty() && flying.is_empty();
+    let warning = Diagnostic::new(Code::LooseBody, message)
+        .at_each(hanging.iter().map(|body| body.span), "hangs by one joint")
+        .at_each(flying, "leaves every freedom")
+        .at_each(driven.filter(|_| is_known), "driven here");
+    Some(warning.help(
+        "add the joint that is missing; if a body is to swing or fly freely, give each freedom of its joint a start value in [initial]",
     ))
 }

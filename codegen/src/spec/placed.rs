@@ -100,6 +100,18 @@ impl Place {
         self.basis(&mut body.axes, body.inertia.as_ref().map(|inertia| inertia.span));
         let Some(bent) = &mut body.flexible else { return };
         self.basis(&mut bent.value.axes, bent.value.data.as_ref().map(|data| data.span));
+        let is_round = body.rod.is_some() || body.tube.is_some();
+        let modes = bent.value.modes.as_ref().filter(|_| is_round && bent.value.section.is_none());
+        if let Some(modes) = modes.filter(|modes| self.turn.is_some() && !is_even(modes)) {
+            let what =
+                "of its last pair of bending modes a round link keeps the one along the axes of the drawing"
+                    .to_owned();
+            faults.push((
+                modes.span,
+                what,
+                "keep an even number of `modes`, or write a `section` with its `y_axis`",
+            ));
+        }
         if let Some(section) = &mut bent.value.section {
             if self.turn.is_some() && section.value.y_axis.is_none() {
                 let what = "a section without `y_axis` lies along the axes of the drawing".to_owned();
@@ -115,7 +127,9 @@ impl Place {
                 let what = "an `equation` is written along the axes of the part".to_owned();
                 faults.push((equation.span, what, "turn the part in its own file"));
             }
-            let is_written = joint.force.is_some() || joint.spring.is_some() || joint.drive.is_some();
+            // The spring of a ball acts alike about all axes.
+            let is_along = joint.spring.is_some() && joint.spherical.is_none();
+            let is_written = joint.force.is_some() || is_along || joint.drive.is_some();
             if has_ground_axes(joint) && is_written {
                 let what =
                     format!("what acts in joint `{}` is written along the axes of the part", name.value);
@@ -201,6 +215,14 @@ fn has_ground_axes(joint: &JointSpec) -> bool {
     [&joint.spherical, &joint.free, &joint.inline, &joint.inplane, &joint.distance, &joint.on_surface]
         .iter()
         .any(|kind| kind.is_some())
+}
+
+fn is_even(quantity: &Quantity) -> bool {
+    let number = match &quantity.value {
+        Literal::Number(value) => Some(*value),
+        Literal::Text(text) => text.trim().parse().ok(),
+    };
+    number.is_some_and(|number: f64| number % 2.0 == 0.0)
 }
 
 fn is_zero(quantity: &Quantity) -> bool {

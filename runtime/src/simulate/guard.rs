@@ -112,13 +112,13 @@ fn is_judged(ledger: &Ledger<f64>) -> bool {
 fn check_balance(t: f64, ledger: &Ledger<f64>) -> Result<(), RunError> {
     let Balance { error, throughput, .. } = ledger.balance;
     // What is not a number is not balanced.
-    let balanced = error <= ENERGY_WRONG * throughput;
+    let balanced = error <= ENERGY_WRONG * ledger.balance.at_stake();
     if is_judged(ledger) && !balanced { Err(RunError::EnergyLost { t, error, throughput }) } else { Ok(()) }
 }
 
 /// Whether the balance at the end is doubtful.
 pub(super) fn is_doubtful(ledger: &Ledger<f64>) -> bool {
-    is_judged(ledger) && ledger.balance.error > ENERGY_DOUBTFUL * ledger.balance.throughput
+    is_judged(ledger) && ledger.balance.error > ENERGY_DOUBTFUL * ledger.balance.at_stake()
 }
 
 /// The joint with clearance that is pressed in deepest, by its clearance.

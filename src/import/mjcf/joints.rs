@@ -1,6 +1,7 @@
 //! `<joint>` elements. In: elements with their defaults. Out: a joint, and its coordinate as drawn. Never knows bodies.
 
 use super::super::error::ImportError;
+use super::super::names;
 use super::super::place::Place;
 use super::super::robot::{Joint, Kind, Spring};
 use super::super::xml::Element;
@@ -87,7 +88,7 @@ fn passive(
         _ => ("N m", "rad/s", "rad"),
     };
     if friction > 0.0 && joint.kind.is_single() {
-        left_out.push(format!("friction of {name}: a law that jumps at rest; write a smooth one as `force`, such as \"-{friction} {force}*tanh({name}.v/(0.01 {speed}))\""));
+        left_out.push(format!("friction of {name}: a law that jumps at rest; write a smooth one as `force`, such as \"-{friction} {force}*tanh({}.v/(0.01 {speed}))\"", names::plain(&name)));
     } else if friction > 0.0 {
         lose("`frictionloss`");
     }

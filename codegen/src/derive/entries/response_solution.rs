@@ -5,11 +5,14 @@
 //! say `y = phi(r)`. Where phi is affine too, one elimination of `(1 - phi' A) y = phi(b)` solves it; else Newton's method
 //! takes [`STEPS`] steps from `phi(b)`, and what misses the laws by more than [`MISS`] then is no number.
 
+use rustc_hash::FxHashSet;
+
 use super::deriver::{Deriver, Instant};
 use super::joint_forces::JointForces;
+use crate::derive::couplings::size;
 use crate::derive::forward::Forward;
 use crate::derive::link_mass::LinkMass;
-use crate::expr::{Affine, Expr, Scope};
+use crate::expr::{Affine, Expr, ExprId, Scope};
 use crate::model::Response;
 
 /// Steps of Newton's method. Near the solution each doubles the digits: from two right ones three steps reach rounding. As
@@ -19,6 +22,17 @@ const STEPS: usize = 6;
 /// Part of a force (of 1 N or 1 N m, where it is smaller) that its law may be missed by: far below what an integrator's
 /// tolerance lets through, far above rounding in the elimination.
 const MISS: f64 = 1e-8;
+
+/// Teeth are pressed apart by the size of a multiplier, in which no response is affine. So the size is one of the forces that are solved
+/// for, and the multiplier one of the responses that its law asks for.
+struct Pressed<'g> {
+    multiplier: Expr<'g>,
+    size: Expr<'g>,
+    /// Symbol of the multiplier in the law.
+    asked: Expr<'g>,
+    /// Symbol of the size.
+    unknown: Expr<'g>,
+}
 
 /// A symbol and what stands for it.
 type Values<'g> = Vec<(Expr<'g>, Expr<'g>)>;
@@ -40,12 +54,26 @@ impl<'g> Deriver<'g> {
             let symbols = asked.iter().map(|(_, symbol)| symbol).chain(&unknowns);
             return symbols.map(|symbol| (*symbol, g.zero())).collect();
         };
-        let symbols: Vec<Expr<'g>> = asked.iter().map(|(_, symbol)| *symbol).collect();
         let instant = self.instant(self.driven_state(&self.v_dot));
-        let responses =
-            g.with(&self.responses_by_symbols(masses, &asked, &instant), &self.solution_values(solved));
+        let by_symbols = self.responses_by_symbols(masses, &asked, &instant);
+        let pressed = self.pressed(&by_symbols, &instant);
+        let mut values = self.solution_values(solved);
+        let multipliers = g.with(&pressed.iter().map(|one| one.multiplier).collect::<Vec<_>>(), &values);
+        values.extend(pressed.iter().map(|one| (one.size, one.unknown)));
+        let mut responses = g.with(&by_symbols, &values);
+        responses.extend(multipliers);
+        let own = pressed.iter().map(|one| one.asked);
+        let symbols: Vec<Expr<'g>> = asked.iter().map(|(_, symbol)| *symbol).chain(own).collect();
+        let unknowns: Vec<Expr<'g>> =
+            unknowns.into_iter().chain(pressed.iter().map(|one| one.unknown)).collect();
+        let laws: Vec<Expr<'g>> =
+            laws.iter().copied().chain(pressed.iter().map(|one| size(one.asked))).collect();
+        let laws = &*laws;
         g.begin_section("accelerations and joint forces that forces ask for");
-        #[expect(clippy::expect_used, reason = "equations of motion are linear in forces")]
+        #[expect(
+            clippy::expect_used,
+            reason = "equations of motion are linear in forces, sizes of multipliers are unknowns"
+        )]
         let affine = g.affine(&responses, &unknowns).expect("accelerations are affine in forces");
         let linear = g.affine(laws, &symbols);
         let forces = match &linear {
@@ -54,6 +82,23 @@ impl<'g> Deriver<'g> {
         };
         let at = symbols.into_iter().zip(responses_at(&affine, &forces));
         unknowns.into_iter().zip(forces).chain(at).collect()
+    }
+
+    /// The rigid couplings whose flanks press on something that is asked for.
+    fn pressed(&self, by_symbols: &[Expr<'g>], instant: &Instant<'g>) -> Vec<Pressed<'g>> {
+        let g = self.geometry.g;
+        let ids: Vec<ExprId> = by_symbols.iter().map(|response| response.id()).collect();
+        let used: FxHashSet<ExprId> = g.nodes(&ids).into_iter().map(|(id, _)| id).collect();
+        let multipliers = &self.lambda[self.lambda.len() - instant.couplings.len()..];
+        let sizes = multipliers.iter().map(|multiplier| (*multiplier, size(*multiplier)));
+        let pressed = sizes.filter(|(_, size)| used.contains(&size.id())).enumerate();
+        let one = |(at, (multiplier, size)): (usize, (Expr<'g>, Expr<'g>))| Pressed {
+            multiplier,
+            size,
+            asked: g.symbol(format!("pressing{}", at + 1)),
+            unknown: g.symbol(format!("pressed{}", at + 1)),
+        };
+        pressed.map(one).collect()
     }
 
     /// What is asked for, over symbols of accelerations, multipliers, drive forces and of the forces that ask.

@@ -42,6 +42,7 @@ impl Resolver<'_> {
             carrier: seat.carrier,
             force: ByMultiplier::default(),
             moment: ByMultiplier { signed: u.map(|x| share * x), ..ByMultiplier::default() },
+            slides: Vec::new(),
             pitch_circle: None,
         });
         let columns = TORQUES.into_iter().zip(shares);

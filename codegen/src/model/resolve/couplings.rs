@@ -162,6 +162,7 @@ impl Resolver<'_> {
             carrier,
             force: mesh.sides[i].force,
             moment: mesh.sides[i].moment,
+            slides: if i == 1 && second == Seating::Slides { seats[1].slides() } else { Vec::new() },
             pitch_circle: mesh.sides[i].circle,
         };
         Some(Coupling {

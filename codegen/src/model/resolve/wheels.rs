@@ -41,6 +41,11 @@ impl Seat {
     pub(super) fn is_coaxial(&self, other: &Self, size: f64) -> bool {
         is_parallel(self.axis, other.axis) && off_line(self.centre, self.axis, other.centre) <= DRAWN * size
     }
+
+    /// The joints of its path, each with the direction in which it moves the body over the carrier.
+    pub(super) fn slides(&self) -> Vec<(JointId, [f64; 3])> {
+        self.path.iter().map(|(joint, sign)| (*joint, self.axis.map(|x| sign * x))).collect()
+    }
 }
 
 pub(super) fn is_parallel(a: [f64; 3], b: [f64; 3]) -> bool {
