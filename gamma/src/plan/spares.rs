@@ -22,8 +22,8 @@ const NARROWEST: f64 = 0.04;
 const LEFT_OUT: f64 = 1e-12;
 /// Replacements of one part that are still counted.
 const MOST: usize = 100;
-/// Parts of a fleet.
-const FLEET: usize = 1_000_000;
+/// Most parts that spares are planned for.
+pub const FLEET: usize = 1_000_000;
 
 /// Replacements of a fleet within a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,12 +44,15 @@ pub struct Spares {
 /// `confidence`.
 ///
 /// # Errors
-/// [`PlanError::Life`] for a time or probability out of range, [`PlanError::TooMany`].
+/// [`PlanError::Life`] for a time or probability out of range, [`PlanError::NoParts`], [`PlanError::TooMany`].
 pub fn spares(life: &dyn Lifetime, parts: usize, time: f64, confidence: f64) -> Result<Spares, PlanError> {
     positive("the time planned for", time)?;
     probability(confidence)?;
     let too_many = |each| PlanError::TooMany { parts, each };
-    if parts == 0 || parts > FLEET {
+    if parts == 0 {
+        return Err(PlanError::NoParts);
+    }
+    if parts > FLEET {
         return Err(too_many(0));
     }
     let one = replacements(life, time)?.ok_or(too_many(MOST))?;

@@ -1,7 +1,7 @@
 //! Plans against published examples, closed forms and simulation.
 
 use super::*;
-use crate::life::{Clock, Law, LifeError, Lifetime, Weibull};
+use crate::life::{Clock, Law, Lifetime, Weibull};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 use crate::random::Stream;
 
@@ -230,7 +230,7 @@ fn questions_without_an_answer_say_so() {
     assert_eq!(Looks::new(1.0, Some(0.0)), Err(PlanError::FreeDowntime));
     let free = Looks::new(1.0, None).expect("valid");
     let above = part.cost(&costs, &free, 1.0, 11.0);
-    assert!(matches!(above, Err(PlanError::Life(LifeError::Failed { .. }))));
+    assert!(matches!(above, Err(PlanError::ReplacedTooLate { .. })), "{above:?}");
     // After 20,000 looks all parts are still there: what is summed up by then is no cycle.
     let often = part.cost(&costs, &free, 1e-5, 5.0);
     assert!(matches!(often, Err(PlanError::TooOften { .. })), "{often:?}");
@@ -278,6 +278,7 @@ fn parts_replaced_at_an_age_need_as_many_spares_as_ages_fit() {
     assert_eq!(found.needed, 9);
     let without = spares(&PlannedLife { life: &life, age: None }, 3, 35.0, 0.9).expect("valid");
     assert!(without.mean < 0.1, "{without:?}");
+    assert_eq!(spares(&life, 0, 35.0, 0.9), Err(PlanError::NoParts));
     assert!(matches!(spares(&life, 1, 1e6, 0.9), Err(PlanError::TooMany { .. })));
     assert!(spares(&life, 0, 1.0, 0.9).is_err() && spares(&life, 1, 1.0, 1.0).is_err());
 }
