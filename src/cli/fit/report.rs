@@ -201,7 +201,9 @@ fn comparison(own: &Analysis) -> Vec<ComparedAnswer> {
         }
         Err(error) => ComparedAnswer { why: Some(error.to_string()), ..named(*process) },
     });
-    [fitted(own.fit.model.process, &own.fit)].into_iter().chain(others).collect()
+    // Of units alike, as the others are: criteria of models with units that differ stand in `compare`.
+    let alike = own.units.as_ref().map_or(&own.fit, |found| &found.plain);
+    [fitted(own.fit.model.process, alike)].into_iter().chain(others).collect()
 }
 
 fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
