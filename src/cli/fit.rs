@@ -73,7 +73,7 @@ pub fn fitted(
             .map_err(|error| no_fit(arguments, (name, data), error))
     };
     let parts = groups.iter().map(analysis).collect::<Result<Vec<_>, _>>()?;
-    let all = analysis(&pooled)?;
+    let all = Analysis { comments_like_rows: table.comments_like_rows(), ..analysis(&pooled)? };
     let test = ratio(&all, &parts);
     #[cfg(feature = "page")]
     picture::write_plot(arguments.plot.as_deref(), || fit_picture(&all.fit, &all.goodness, &pooled.data))?;
