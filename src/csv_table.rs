@@ -1,16 +1,22 @@
 //! Tables of numbers in CSV files. In: a path. Out: cells by named columns, with their lines; or what is wrong, where, and
 //! what to do. Never knows what the columns mean.
 
+mod number;
+pub(crate) mod rows;
+
 use std::io;
 use std::path::{Path, PathBuf};
 
-use csv::{ReaderBuilder, StringRecord, Trim};
 use linkwear_codegen::diagnostic::{cut, nearest};
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::limits;
 use thiserror::Error;
 
+use self::rows::{BrokenRow, Row, Rows};
 use crate::checksum::sha256_of;
+
+/// What parts columns, for a table that has them parted otherwise.
+const BY_COMMAS: &str = "columns are parted by commas: write the file with commas, and decimal points";
 
 /// Letters of a cell or of a list of names that are shown.
 const SHOWN: [usize; 2] = [40, 300];
@@ -46,8 +52,9 @@ pub struct CsvTable<'a> {
     /// Line of the header.
     head: usize,
     header: Vec<String>,
-    /// Line and cells.
-    rows: Vec<(usize, StringRecord)>,
+    rows: Vec<Row>,
+    /// How many comments after the header look like rows.
+    like_rows: usize,
     sha256: String,
 }
 
@@ -68,32 +75,29 @@ impl<'a> CsvTable<'a> {
     pub fn parse(file: &'a Path, text: &str) -> Result<Self, CsvError> {
         // A byte order mark would hide in the first name.
         let text = text.strip_prefix('\u{feff}').unwrap_or(text);
-        let mut reader =
-            ReaderBuilder::new().comment(Some(b'#')).trim(Trim::All).from_reader(text.as_bytes());
-        let broken = |error: csv::Error| {
-            let line = error.position().and_then(|position| usize::try_from(position.line()).ok());
-            let help = "each line needs as many cells as the header, and each quote its end";
-            fault(file, line, format!("this is no CSV table: {error}"), help)
-        };
-        let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
-        if header.is_empty() {
+        let mut rows = Rows::new(text, true);
+        let Some(header) = rows.next() else {
             let help = "write a line of column names, then one reading a line";
             return Err(fault(file, None, "the file is empty".to_owned(), help));
-        }
-        let mut rows = Vec::new();
-        for record in reader.records() {
-            let record = record.map_err(broken)?;
-            let line = record.position().map_or(0, |position| usize::try_from(position.line()).unwrap_or(0));
-            rows.push((line, record));
-        }
-        let first = |line: &str| !line.trim().is_empty() && !line.starts_with('#');
-        let head = text.lines().position(first).map_or(1, |at| at + 1);
-        Ok(Self { file, head, header, rows, sha256: sha256_of(text.as_bytes()) })
+        };
+        let (head, header) = header.map_err(|row| broken(file, &[], row))?;
+        let header: Vec<String> = header.iter().map(str::to_owned).collect();
+        let before = rows.comments().len();
+        let read = rows.by_ref().collect::<Result<Vec<Row>, _>>();
+        let read = read.map_err(|row| broken(file, &header, row))?;
+        let comments = &rows.comments()[before..];
+        let like_rows = comments.iter().filter(|comment| is_like_a_row(comment, header.len())).count();
+        Ok(Self { file, head, header, rows: read, like_rows, sha256: sha256_of(text.as_bytes()) })
     }
 
     /// SHA-256 of the text.
     pub fn sha256(&self) -> &str {
         &self.sha256
+    }
+
+    /// How many comments after the header look like rows: they have as many cells, two of them numbers at least.
+    pub fn comments_like_rows(&self) -> usize {
+        self.like_rows
     }
 
     /// The line of each row.
@@ -128,14 +132,9 @@ impl<'a> CsvTable<'a> {
             (Some((at, _)), None) => Ok(at),
             (Some(_), Some(_)) => wrong(format!("column `{name}` is there twice"), "rename one of them"),
             _ => {
-                let separator = |name: &&str| name.contains([';', '\t']);
-                let joined = self.header.iter().map(String::as_str).find(separator);
                 let help = match nearest(name, self.header.iter().map(String::as_str)) {
                     Some(column) => format!("did you mean `{column}`?"),
-                    None if joined.is_some() => {
-                        "columns are parted by commas: write the file with commas, and decimal points"
-                            .to_owned()
-                    }
+                    None if is_parted_otherwise(&self.header) => BY_COMMAS.to_owned(),
                     None => format!("the columns are: {}", cut(&self.header.join(", "), SHOWN[1])),
                 };
                 wrong(format!("there is no column `{name}`"), &help)
@@ -156,7 +155,7 @@ impl<'a> CsvTable<'a> {
     /// # Errors
     /// [`CsvError::Data`].
     pub fn numbers_at(&self, column: usize) -> Result<Vec<f64>, CsvError> {
-        let number = |(line, record): &(usize, StringRecord)| {
+        let number = |(line, record): &Row| {
             let cell = record.get(column).unwrap_or_default();
             let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
             value.ok_or_else(|| self.no_number(*line, column, cell))
@@ -170,7 +169,7 @@ impl<'a> CsvTable<'a> {
     /// [`CsvError::Data`].
     pub fn numbers_after(&self, name: &str, marks: &[&str]) -> Result<Vec<(Option<usize>, f64)>, CsvError> {
         let column = self.place(name)?;
-        let read = |(line, record): &(usize, StringRecord)| {
+        let read = |(line, record): &Row| {
             let cell = record.get(column).unwrap_or_default();
             let mark = marks.iter().position(|mark| cell.starts_with(mark));
             let rest = mark.map_or(cell, |at| cell[marks[at].len()..].trim_start());
@@ -186,7 +185,7 @@ impl<'a> CsvTable<'a> {
     /// [`CsvError::Data`].
     pub fn numbers_or_none(&self, name: &str) -> Result<Vec<Option<f64>>, CsvError> {
         let column = self.place(name)?;
-        let read = |(line, record): &(usize, StringRecord)| match record.get(column).unwrap_or_default() {
+        let read = |(line, record): &Row| match record.get(column).unwrap_or_default() {
             "" => Ok(None),
             cell => match cell.parse::<f64>().ok().filter(|value| value.is_finite()) {
                 Some(value) => Ok(Some(value)),
@@ -199,24 +198,32 @@ impl<'a> CsvTable<'a> {
     fn no_number(&self, line: usize, column: usize, cell: &str) -> CsvError {
         let name = self.header.get(column).map_or("", String::as_str);
         let (name, cell) = (cut(name, SHOWN[0]), &*cut(cell, SHOWN[0]));
-        let pointed = cell.replacen(',', ".", 1);
-        if pointed != cell && pointed.parse::<f64>().is_ok() {
-            let message = format!("line {line}: `{name}` is `{cell}`, a number with a decimal comma");
-            let help = format!("write a decimal point in all numbers: `{pointed}`");
-            return fault(self.file, Some(line), message, &help);
+        let (cause, help) = number::why(&name, cell);
+        fault(self.file, Some(line), format!("line {line}: `{name}` {cause}"), &help)
+    }
+
+    /// The cells of a column that names things: none is empty, none has letters that cannot be seen.
+    ///
+    /// # Errors
+    /// [`CsvError::Data`].
+    pub fn names(&self, column: &str) -> Result<Vec<String>, CsvError> {
+        let names = self.texts(column)?;
+        for (name, line) in names.iter().zip(self.lines()) {
+            let wrong = |cause: &str, help: &str| {
+                let message = format!("line {line}: `{}` {cause}", cut(column, SHOWN[0]));
+                Err(fault(self.file, Some(line), message, help))
+            };
+            if name.is_empty() {
+                return wrong("is empty", "write a name, or delete the line");
+            }
+            if let Some(letter) = name.chars().find(|letter| letter.is_control()) {
+                let shown = cut(&name.escape_debug().to_string(), SHOWN[0]);
+                let letter = format!("U+{:04X}", u32::from(letter));
+                let cause = format!("is `{shown}`, with a control character ({letter})");
+                return wrong(&cause, "delete the character; write the file as plain text, UTF-8");
+            }
         }
-        let unit = cell.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
-        if !unit.is_empty() && unit.len() < cell.len() {
-            let message = format!("line {line}: `{name}` is `{cell}`, a number with a unit");
-            let help =
-                format!("one unit per column: convert all rows, and put it into the header, `{name}_{unit}`");
-            return fault(self.file, Some(line), message, &help);
-        }
-        let message = match cell {
-            "" => format!("line {line}: `{name}` is empty"),
-            _ => format!("line {line}: `{name}` is `{cell}`, not a finite number"),
-        };
-        fault(self.file, Some(line), message, "write a number, or delete the line")
+        Ok(names)
     }
 
     /// The cells of a column.
@@ -231,4 +238,27 @@ impl<'a> CsvTable<'a> {
 
 fn fault(file: &Path, line: Option<usize>, message: String, help: &str) -> CsvError {
     CsvError::Data { file: file.to_path_buf(), line, message, help: help.to_owned() }
+}
+
+fn broken(file: &Path, header: &[String], BrokenRow { line, cells, why }: BrokenRow) -> CsvError {
+    let is_wider = cells.is_some_and(|[found, expected]| found > expected);
+    if is_wider && is_parted_otherwise(header) {
+        let message = "columns are not parted by commas, but numbers seem to have decimal commas".to_owned();
+        return fault(file, Some(line), format!("line {line}: {message}"), BY_COMMAS);
+    }
+    let help = "each line needs as many cells as the header, and each quote its end";
+    fault(file, Some(line), format!("line {line}: this is no CSV table: {why}"), help)
+}
+
+/// Whether a header looks as if columns were parted by semicolons or tabs.
+fn is_parted_otherwise(header: &[String]) -> bool {
+    header.iter().any(|name| name.contains([';', '\t']))
+}
+
+/// Whether a comment has as many cells as a header, two of them numbers at least.
+fn is_like_a_row(comment: &[u8], cells: usize) -> bool {
+    let found: Vec<&[u8]> = comment.split(|byte| *byte == b',').collect();
+    let is_number =
+        |cell: &&&[u8]| std::str::from_utf8(cell).is_ok_and(|cell| cell.trim().parse::<f64>().is_ok());
+    found.len() == cells && found.iter().filter(is_number).count() >= 2
 }

@@ -3,11 +3,12 @@
 //! There is nothing in it that changes no number: no thread, shard, back end, time or path, so that the same question has the same
 //! bytes for an answer wherever it is asked.
 
+use linkwear_gamma::FitFile;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
-/// Version of the form of all JSON; it rises when a key changes its meaning or goes.
-pub const FORMAT: u64 = 1;
+/// Version of the form of all JSON, fits among it; it rises when a key changes its meaning or goes.
+pub const FORMAT: u64 = FitFile::FORMAT;
 
 /// What decides the numbers of a result.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]

@@ -4,6 +4,9 @@
 use std::fs::{self, File};
 use std::io::{self, ErrorKind, Read as _};
 use std::path::{Path, PathBuf};
+use std::string::FromUtf8Error;
+
+use thiserror::Error;
 
 use crate::limits::Limit;
 
@@ -43,7 +46,24 @@ pub fn read_bytes(path: &Path, most: Limit) -> io::Result<Vec<u8>> {
 }
 
 fn text(bytes: Vec<u8>) -> io::Result<String> {
-    String::from_utf8(bytes).map_err(|_| io::Error::new(ErrorKind::InvalidData, "it is not UTF-8 text"))
+    String::from_utf8(bytes).map_err(|error| io::Error::new(ErrorKind::InvalidData, NotUtf8::of(&error)))
+}
+
+/// Bytes that are no text in UTF-8; the cause of an [`io::Error`].
+#[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
+#[error("{}, from line {line} on", if *.is_utf16 { "it is UTF-16 text, not UTF-8" } else { "it is not UTF-8 text" })]
+pub struct NotUtf8 {
+    /// Line of the first of them, from 1.
+    pub line: usize,
+    is_utf16: bool,
+}
+
+impl NotUtf8 {
+    fn of(error: &FromUtf8Error) -> Self {
+        let (bytes, good) = (error.as_bytes(), error.utf8_error().valid_up_to());
+        let line = 1 + bytes.iter().take(good).filter(|byte| **byte == b'\n').count();
+        Self { line, is_utf16: bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) }
+    }
 }
 
 /// The text of a file that the file `from` names, and its path.

@@ -16,6 +16,7 @@ use crate::provenance::sealed;
 use crate::study::{LIFE_FAILED, RUN_FAILED};
 use clap::error::ErrorKind;
 use linkwear_codegen::diagnostic::{Diagnostics, nearest};
+use linkwear_codegen::input::NotUtf8;
 use linkwear_gamma::FitFileError;
 use linkwear_runtime::RunError;
 use serde_json::{Value, json};
@@ -74,6 +75,11 @@ impl Failure {
     pub fn read(file: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
         move |error| {
             let message = format!("cannot read `{}`: {error}", file.display());
+            let cause = error.get_ref().and_then(|cause| cause.downcast_ref::<NotUtf8>());
+            if let Some(NotUtf8 { line, .. }) = cause {
+                let help = "save it as UTF-8 text: editors and spreadsheets ask for the encoding";
+                return Self::placed("C0002", (Some(file), Some(*line)), "", (message, help));
+            }
             let is_mechanism = file.extension().is_none_or(|extension| extension == "toml");
             let help = if is_mechanism {
                 "check the path; shipped mechanisms are in `mechanisms/`"

@@ -73,7 +73,7 @@ pub fn fitted(
             .map_err(|error| no_fit(arguments, (name, data), error))
     };
     let parts = groups.iter().map(analysis).collect::<Result<Vec<_>, _>>()?;
-    let all = analysis(&pooled)?;
+    let all = Analysis { comments_like_rows: table.comments_like_rows(), ..analysis(&pooled)? };
     let test = ratio(&all, &parts);
     #[cfg(feature = "page")]
     picture::write_plot(arguments.plot.as_deref(), || fit_picture(&all.fit, &all.goodness, &pooled.data))?;
@@ -213,12 +213,30 @@ fn no_fit(arguments: &FitArguments, (name, data): (&str, &Observations), error: 
             number(second.low)
         );
     }
-    Failure::data(&arguments.file, None, message, cure(error))
+    let may_run_off = may_run_off(arguments);
+    if error == FitError::NotConverged && !may_run_off.is_empty() {
+        let _ = write!(message, ", perhaps {}", may_run_off.join(" or "));
+    }
+    Failure::data(&arguments.file, None, message, cure(error, model.parameters()))
 }
 
-/// In the words of the command line.
-fn cure(error: FitError) -> &'static str {
+/// Parameters beside the process's own, by the options that ask for them.
+fn may_run_off(arguments: &FitArguments) -> Vec<&'static str> {
+    let all = [
+        (arguments.power_law, "the exponent (--power-law)"),
+        (arguments.random_effects, "the variation between units (--random-effects)"),
+        (arguments.covariates().next().is_some(), "the power of a covariate"),
+    ];
+    all.into_iter().filter(|(is_sought, _)| *is_sought).map(|(_, what)| what).collect()
+}
+
+/// In the words of the command line; by how many parameters are sought, a process has two.
+fn cure(error: FitError, parameters: usize) -> &'static str {
     match error {
+        FitError::OutOfRange => {
+            "convert wear and exposure to units in which their numbers are neither huge nor tiny"
+        }
+        FitError::NotConverged if parameters <= 2 => "look at the data; try another --process",
         FitError::NoScatter => {
             "no process is needed for wear that follows a line; if the gauge rounds, give its step by --resolution"
         }

@@ -1,10 +1,12 @@
 //! Cells that are read back, and CSV. In: a file. Out: its columns. Never knows what the numbers mean.
 
+use std::fs;
 use std::io::{self, ErrorKind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use csv::ReaderBuilder;
 use serde_json::Value;
+
+use crate::csv_table::rows::{BrokenRow, Rows};
 
 /// The cells of a column.
 #[derive(Debug, PartialEq)]
@@ -25,11 +27,14 @@ pub(super) type Read = (Vec<(String, CellsRead)>, Option<Value>);
 
 /// Reads CSV: a line of titles, then rows.
 pub(super) fn read_csv(file: &Path) -> io::Result<Read> {
-    let mut reader = ReaderBuilder::new().comment(Some(b'#')).from_path::<PathBuf>(file.into())?;
-    let titles: Vec<String> = reader.headers()?.iter().map(str::to_owned).collect();
+    let text = fs::read_to_string(file)?;
+    let mut rows = Rows::new(&text, false);
+    let wrong = |BrokenRow { line, why, .. }: BrokenRow| broken(format!("line {line}: {why}"));
+    let titles = rows.next().transpose().map_err(wrong)?.map(|(_, titles)| titles).unwrap_or_default();
+    let titles: Vec<String> = titles.iter().map(str::to_owned).collect();
     let mut texts: Vec<Vec<String>> = titles.iter().map(|_| Vec::new()).collect();
-    for row in reader.records() {
-        for (column, cell) in texts.iter_mut().zip(&row?) {
+    for row in rows {
+        for (column, cell) in texts.iter_mut().zip(&row.map_err(wrong)?.1) {
             column.push(cell.to_owned());
         }
     }

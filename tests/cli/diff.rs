@@ -143,4 +143,7 @@ fn results_of_different_kinds_are_refused_with_the_reason() {
     let broken = folder.write("broken.npy", "no numbers");
     let answer = linkwear(&["diff", &broken, &rows]);
     assert!(answer.code == 1 && answer.err.contains("no table"), "{}", answer.err);
+    let uneven = folder.write("uneven.csv", "t [s],q\n0,1\n# so far\n\n1\n");
+    let answer = linkwear(&["diff", &uneven, &rows]);
+    assert!(answer.code == 1 && answer.err.contains("line 5: 1 cells"), "{}", answer.err);
 }

@@ -13,6 +13,7 @@ mod data;
 mod diff;
 mod explain;
 mod fit;
+mod fit_errors;
 mod identify;
 mod import;
 mod include;

@@ -190,6 +190,9 @@ fn what_cannot_be_planned_is_refused_with_the_reason() {
     let (code, text) = refused(&[&[mean], &costs[..]].concat());
     assert!(code == 1 && text.contains("no random lives") && text.contains("--trajectories"), "{text}");
     let above = ["--threshold", "20", "--inspection", "5", "--replace-from", "21"];
-    let (code, _) = refused(&[&[fit.as_str()], &above[..], &costs[..]].concat());
-    assert_eq!(code, 1);
+    let (code, text) = refused(&[&[fit.as_str()], &above[..], &costs[..]].concat());
+    assert!(code == 1 && text.contains("from wear 21 on") && text.contains("--replace-from"), "{text}");
+    let none = ["--threshold", "20", "--parts", "0", "--horizon", "5"];
+    let (code, text) = refused(&[&[fit.as_str()], &none[..], &costs[..]].concat());
+    assert!(code == 2 && text.contains("--parts") && text.contains("1..=1000000"), "{text}");
 }

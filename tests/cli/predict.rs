@@ -162,6 +162,8 @@ fn wrong_inspections_are_named_by_line() {
     assert!(message.contains("wear falls from 2 to 1.5") && line == Some(5), "{message} {line:?}");
     let (message, line) = case("hours,um\n0,0\n2,1\n1,2\n", "um");
     assert!(message.contains("sort the readings") && line == Some(4), "{message} {line:?}");
+    let (_, line) = case("# um\nhours,um\n# new\n\n0,0\n2,1\n\n# late\n1,2\n", "um");
+    assert_eq!(line, Some(9));
     let (message, line) = case("hours,um\n0,0\n1,two\n", "um");
     assert!(message.contains("`um` is `two`, not a finite number") && line == Some(3), "{message} {line:?}");
     let (message, line) = case("hours,um\n0,0\n1,NaN\n", "um");

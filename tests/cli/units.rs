@@ -30,6 +30,9 @@ fn lasers_have_rates_of_their_own() {
     close(&found["lr_test"]["statistic"], 2.0 * (93.738_929 - 69.609_358_92), 1e-8);
     assert!(found["lr_test"]["p"].as_f64().expect("a number") < 1e-10);
     close(&found["aic"], 6.0 - 2.0 * 93.738_929, 1e-8);
+    // Of units alike, as those beside it.
+    close(&found["comparison"][0]["log_likelihood"], 69.609_358_92, 1e-9);
+    close(&found["comparison"][0]["aic"], 4.0 - 2.0 * 69.609_358_92, 1e-9);
     let rows = found["compare"].as_array().expect("rows");
     for (process, random, expected) in [
         ("gamma", false, 69.609_358_92),

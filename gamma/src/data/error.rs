@@ -4,6 +4,9 @@ use std::fmt;
 
 use thiserror::Error;
 
+/// Rows that are named; more are counted.
+const NAMED: usize = 10;
+
 /// An increment that a Gamma process cannot have.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NotIncreasing {
@@ -144,7 +147,10 @@ pub enum DataError {
 }
 
 fn listed(rows: &[NotIncreasing]) -> String {
-    rows.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
+    let named: Vec<String> = rows.iter().take(NAMED).map(ToString::to_string).collect();
+    let more = rows.len() - named.len();
+    let named = named.join(", ");
+    if more == 0 { named } else { format!("{named}, and {more} more") }
 }
 
 impl DataError {

@@ -1,7 +1,7 @@
 //! Readings of a unit in the order of exposure, cut where the part was replaced or worked on. In: readings. Out: increments of
 //! each part, and what it wears now. Never knows whether increments are possible.
 
-use std::collections::HashSet;
+use std::collections::HashMap;
 
 use super::error::DataError;
 use super::increment::{Gauge, Increment, Known, Observations};
@@ -13,28 +13,31 @@ pub fn histories(
     from_zero: bool,
     gauge: Gauge,
 ) -> Result<(Observations, Vec<f64>), DataError> {
-    let mut names: Vec<&str> = Vec::new();
-    let mut known = HashSet::new();
+    // Each unit's place among them, in order of first appearance.
+    let mut known: HashMap<&str, usize> = HashMap::new();
+    let mut of_units: Vec<Vec<&Reading>> = Vec::new();
     for reading in readings {
-        if known.insert(reading.unit.as_str()) {
-            names.push(&reading.unit);
+        let at = *known.entry(&reading.unit).or_insert(of_units.len());
+        if at == of_units.len() {
+            of_units.push(Vec::new());
         }
+        of_units[at].push(reading);
     }
     let (mut units, mut increments, mut wear) = (Vec::new(), Vec::new(), Vec::new());
-    for name in &names {
-        let own: Vec<&Reading> = readings.iter().filter(|reading| reading.unit == *name).collect();
-        let mut walk = Walk::new(&own, from_zero, gauge)?;
-        walk.enter(&own)?;
-        for reading in &own {
+    for own in &of_units {
+        let name = &own[0].unit;
+        let mut walk = Walk::new(own, from_zero, gauge)?;
+        walk.enter(own)?;
+        for reading in own {
             walk.read(reading)?;
         }
         walk.end();
         if !walk.parts.iter().any(Part::grows) {
-            return Err(DataError::OneReading { unit: (*name).to_owned(), row: own[0].row });
+            return Err(DataError::OneReading { unit: name.clone(), row: own[0].row });
         }
         for (at, part) in walk.parts.into_iter().enumerate().filter(|(_, part)| part.grows()) {
-            let name = if at == 0 { (*name).to_owned() } else { format!("{name}#{}", at + 1) };
-            if at > 0 && known.contains(name.as_str()) {
+            let name = if at == 0 { name.clone() } else { format!("{name}#{}", at + 1) };
+            if at > 0 && known.contains_key(name.as_str()) {
                 return Err(DataError::PartName { name, row: own[0].row });
             }
             let unit = units.len();

@@ -6,6 +6,8 @@ mod history;
 mod increment;
 mod reading;
 
+use std::collections::HashMap;
+
 use self::history::histories;
 
 pub use error::{DataError, NotIncreasing};
@@ -79,13 +81,20 @@ impl Observations {
             Gauge::Noisy => false,
         };
         let bad = self.increments.iter().filter(|increment| increment.is_exact() && refused(increment.wear));
+        let mut bad = bad.peekable();
+        if bad.peek().is_none() {
+            return Ok(());
+        }
+        let mut wears: HashMap<usize, f64> = HashMap::new();
+        for reading in readings {
+            wears.entry(reading.row).or_insert(reading.wear);
+        }
         let bad = bad.map(|increment| {
-            let after = readings.iter().find(|reading| reading.row == increment.row).map_or(0.0, |r| r.wear);
+            let after = wears.get(&increment.row).copied().unwrap_or(0.0);
             let unit = self.units[increment.unit].clone();
             NotIncreasing { unit, row: increment.row, before: after - increment.wear, after }
         });
-        let bad: Vec<NotIncreasing> = bad.collect();
-        if bad.is_empty() { Ok(()) } else { Err(DataError::NotIncreasing(bad)) }
+        Err(DataError::NotIncreasing(bad.collect()))
     }
 }
 

@@ -65,6 +65,44 @@ fn all_rows_that_do_not_grow_are_named_and_zeros_pass_with_a_resolution() {
     assert!(off.row() == Some(3) && off.to_string().contains("no multiple"), "{off}");
 }
 
+#[test]
+fn of_many_rows_that_do_not_grow_the_first_are_named_and_the_others_counted() {
+    let rows: Vec<(&str, f64, f64)> = (0..50).map(|at| ("a", f64::from(at), f64::from(-at))).collect();
+    let fault = refused(&rows, Gauge::Exact);
+    let text = fault.to_string();
+    assert!(
+        text.starts_with("49 increment(s)") && text.ends_with("row 12 (unit a: -10 after -9), and 39 more")
+    );
+    assert!(!text.contains("row 13") && fault.row() == Some(3), "{text}");
+    let text = refused(&rows[..11], Gauge::Exact).to_string();
+    assert!(text.contains("row 12") && !text.contains("more"), "{text}");
+}
+
+#[test]
+fn of_a_hundred_thousand_units_each_has_its_readings_and_each_bad_row_is_found() {
+    // Minutes, if each unit looked through all rows: twenty thousand million comparisons of names.
+    let mut rows = Vec::new();
+    for unit in 0..100_000 {
+        for at in [0.0, 1.0] {
+            rows.push(Reading {
+                unit: unit.to_string(),
+                row: rows.len() + 2,
+                exposure: at,
+                wear: at,
+                ..Reading::default()
+            });
+        }
+    }
+    let seen = Observations::new(&rows, false, Gauge::Exact).unwrap();
+    assert_eq!(
+        (seen.units.len(), &*seen.units[70_000], seen.increments[70_000].row),
+        (100_000, "70000", 140_003)
+    );
+    rows.iter_mut().filter(|row| row.row > 3).for_each(|row| row.wear = 0.0);
+    let refused = Observations::new(&rows, false, Gauge::Exact).unwrap_err();
+    assert!(matches!(&refused, DataError::NotIncreasing(bad) if bad.len() == 99_999), "{refused}");
+}
+
 /// A reading with what was done to the part after it.
 fn row(unit: &str, exposure: f64, wear: f64, reset: Option<Reset>) -> Reading {
     let row = libm::round(exposure) as usize;

@@ -15,8 +15,13 @@ pub enum FitError {
     )]
     ScatterBelowGauge,
     /// Newton's method has not found a maximum.
-    #[error("the likelihood has no maximum inside; a parameter runs off, perhaps the exponent")]
+    #[error("the likelihood has no maximum inside; a parameter runs off")]
     NotConverged,
+    /// Numbers whose squares and products may be no numbers.
+    #[error(
+        "wear or exposure grows by less than 1e-100 or more than 1e100 in its unit: no fit of such numbers was found"
+    )]
+    OutOfRange,
     /// Too few increments.
     #[error("{increments} increments cannot give {parameters} parameters")]
     TooFew {

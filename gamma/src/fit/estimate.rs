@@ -16,6 +16,9 @@ const MOST_ERROR: f64 = 100.0;
 /// Increments whose wear must be known beside those that are bounded: scatter is seen between them.
 const FEWEST_EXACT: usize = 2;
 
+/// Sizes of increments of wear and exposure between which products of a few are numbers.
+const SIZES: [f64; 2] = [1e-100, 1e100];
+
 /// A fitted process.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fit {
@@ -38,6 +41,22 @@ pub(super) fn estimate_increments(
     model: &Model,
     near: Option<&[f64]>,
 ) -> Result<Fit, FitError> {
+    match found(increments, model, near) {
+        Err(FitError::NoScatter | FitError::NotConverged) if !are_of_size(increments) => {
+            Err(FitError::OutOfRange)
+        }
+        Ok(fit) if !fit.has_errors() && !are_of_size(increments) => Err(FitError::OutOfRange),
+        found => found,
+    }
+}
+
+/// Whether all wear and exposure is of a size that can be computed with.
+fn are_of_size(increments: &[Increment]) -> bool {
+    let is_of_size = |number: f64| number == 0.0 || (SIZES[0]..=SIZES[1]).contains(&number.abs());
+    increments.iter().all(|one| is_of_size(one.wear) && is_of_size(one.to - one.from))
+}
+
+fn found(increments: &[Increment], model: &Model, near: Option<&[f64]>) -> Result<Fit, FitError> {
     let count = increments.iter().filter(|one| one.is_growth()).count();
     if count <= model.parameters() {
         return Err(FitError::TooFew { increments: count, parameters: model.parameters() });
@@ -156,6 +175,11 @@ impl Fit {
     /// Standard errors of [`Self::parameters`].
     pub fn standard_errors(&self) -> Vec<f64> {
         self.covariance().iter().enumerate().map(|(at, row)| libm::sqrt(row[at].max(0.0))).collect()
+    }
+
+    /// Whether all standard errors are positive numbers.
+    fn has_errors(&self) -> bool {
+        self.standard_errors().iter().all(|error| *error > 0.0 && error.is_finite())
     }
 
     /// Akaike's criterion.

@@ -9,6 +9,7 @@ use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 mod bounds;
 mod derivatives;
 mod rounded_units;
+mod sizes;
 mod units;
 
 const GAAS: &str = include_str!("../../tests/data/gaas_lasers.csv");

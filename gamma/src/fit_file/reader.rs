@@ -14,7 +14,10 @@ use crate::process::{PROCESSES, Process, named};
 const SAME: f64 = 0.01;
 
 impl FitFile {
-    /// Reads `process` (the Gamma process, if it is not there), its parameters, perhaps `exponent`, `covariates` and the
+    /// The form of files that is read; one without a number, as people write it by hand, is taken to have it.
+    pub const FORMAT: u64 = 1;
+
+    /// Reads `format` (1, if it is not there), `process` (the Gamma process, if it is not there), its parameters, perhaps `exponent`, `covariates` and the
     /// `covariance` of these, in this order and not of their logarithms.
     ///
     /// # Errors
@@ -26,6 +29,7 @@ impl FitFile {
             cure: WRITE_ONE.to_owned(),
         })?;
         let reader = Reader { text, value: &value };
+        reader.check_format()?;
         let process = reader.process()?;
         let [first, second] = process.parameters().map(|name| reader.positive(name));
         let text_of = |key: &str| value.get(key).and_then(Value::as_str).unwrap_or_default().to_owned();
@@ -67,6 +71,18 @@ impl Reader<'_> {
     /// A key that is there and not null.
     fn given(&self, key: &str) -> Option<&Value> {
         self.value.get(key).filter(|value| !value.is_null())
+    }
+
+    fn check_format(&self) -> Result<(), FitFileError> {
+        match self.given("format") {
+            Some(given) if given.as_u64() != Some(FitFile::FORMAT) => {
+                let message =
+                    format!("`format` is {given}: this program reads fits of format {}", FitFile::FORMAT);
+                let cure = "fit the data again by this program, or ask the version that wrote the file";
+                Err(fault(self.text, "format", &message, cure))
+            }
+            _ => Ok(()),
+        }
     }
 
     fn process(&self) -> Result<&'static dyn Process, FitFileError> {

@@ -137,3 +137,15 @@ fn a_fit_survives_its_file_bit_for_bit() {
     let error = FitFile::parse("{\n\"process\": \"levy\", \"alpha\": 1, \"beta\": 1 }").expect_err("unknown");
     assert!(error.line == Some(2) && error.message.contains("gamma, wiener, inverse-gaussian"), "{error}");
 }
+
+#[test]
+fn a_file_of_another_format_is_refused() {
+    let of =
+        |format: &str| FitFile::parse(&format!("{{\n\"format\": {format},\n\"alpha\": 1, \"beta\": 1 }}"));
+    assert!(of("1").is_ok());
+    for format in ["99", "0", "1.5", "\"1\""] {
+        let error = of(format).expect_err("another format");
+        let is_told = error.message == format!("`format` is {format}: this program reads fits of format 1");
+        assert!(is_told && error.line == Some(2) && error.cure.contains("fit the data again"), "{error}");
+    }
+}

@@ -149,7 +149,7 @@ impl Monitored {
     /// Cost of a plan.
     ///
     /// # Errors
-    /// [`PlanError::Life`] for an interval or threshold out of range, [`PlanError::TooOften`].
+    /// [`PlanError::Life`] for an interval or threshold that is not positive, [`PlanError::ReplacedTooLate`], [`PlanError::TooOften`].
     pub fn cost(
         &self,
         costs: &Costs,
@@ -160,7 +160,7 @@ impl Monitored {
         positive("the interval", interval)?;
         positive("the threshold of replacement", threshold)?;
         if threshold > self.failure {
-            return Err(LifeError::Failed { threshold: self.failure, current: threshold }.into());
+            return Err(PlanError::ReplacedTooLate { from: threshold, failure: self.failure });
         }
         if self.law.survival(self.clock.exposure(interval * MOST as f64), threshold) >= GONE {
             return Err(PlanError::TooOften { interval, looks: MOST });

@@ -30,6 +30,19 @@ pub enum PlanError {
         "a look tells lives nothing but that a part has failed, and these failures show at once: give --downtime the cost of a unit of time with a failure that nobody has noticed"
     )]
     ShowsAtOnce,
+    /// A wear to replace from above that at failure.
+    #[error(
+        "parts are to be replaced from wear {from} on, and have failed before, at the threshold {failure}: give --replace-from a wear below the threshold"
+    )]
+    ReplacedTooLate {
+        /// Wear from which on parts are to be replaced.
+        from: f64,
+        /// Wear at failure.
+        failure: f64,
+    },
+    /// No parts in use.
+    #[error("spares for 0 parts: give --parts a number of 1 or more")]
+    NoParts,
     /// Wear that falls now and then.
     #[error(
         "a threshold for replacement is computed for wear that never falls; a Wiener process may fall: fit a Gamma or an inverse Gaussian process, or plan by age"

@@ -25,7 +25,7 @@ pub use condition_search::{ConditionPlan, best_inspection};
 pub use costs::{Costs, Looks};
 pub use error::PlanError;
 pub use hidden::{HiddenPlan, best_hidden, hidden_cost};
-pub use spares::{Spares, Standstill, spares};
+pub use spares::{FLEET, Spares, Standstill, spares};
 pub use worth::{InUse, Worth, worth_of_a_look};
 
 #[cfg(test)]

@@ -24,8 +24,8 @@ const NARROWEST: f64 = 0.04;
 const LEFT_OUT: f64 = 1e-12;
 /// Replacements of one part that are still counted.
 const MOST: usize = 100;
-/// Parts of a fleet.
-const FLEET: usize = 1_000_000;
+/// Most parts that spares are planned for.
+pub const FLEET: usize = 1_000_000;
 
 /// Replacements of a fleet within a time.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +55,7 @@ pub struct Standstill {
 /// `confidence`.
 ///
 /// # Errors
-/// [`PlanError::Life`] for a time, a standstill or a probability out of range, [`PlanError::TooMany`].
+/// [`PlanError::Life`] for a time, a standstill or a probability out of range, [`PlanError::NoParts`], [`PlanError::TooMany`].
 pub fn spares(
     life: &PlannedLife<'_>,
     standstill: Standstill,
@@ -67,7 +67,10 @@ pub fn spares(
     non_negative("the standstill after a failure", standstill.failure)?;
     probability(confidence)?;
     let too_many = |each| PlanError::TooMany { parts, each };
-    if parts == 0 || parts > FLEET {
+    if parts == 0 {
+        return Err(PlanError::NoParts);
+    }
+    if parts > FLEET {
         return Err(too_many(0));
     }
     let one = replacements(life, standstill, time)?.ok_or(too_many(MOST))?;

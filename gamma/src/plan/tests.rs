@@ -4,7 +4,7 @@ use rand::RngExt;
 use rand::distr::Open01;
 
 use super::*;
-use crate::life::{Clock, Law, LifeError, Lifetime, Weibull};
+use crate::life::{Clock, Law, Lifetime, Weibull};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 use crate::random::Stream;
 
@@ -233,7 +233,7 @@ fn questions_without_an_answer_say_so() {
     assert_eq!(Looks::new(1.0, Some(0.0)), Err(PlanError::FreeDowntime));
     let free = Looks::new(1.0, None).expect("valid");
     let above = part.cost(&costs, &free, 1.0, 11.0);
-    assert!(matches!(above, Err(PlanError::Life(LifeError::Failed { .. }))));
+    assert!(matches!(above, Err(PlanError::ReplacedTooLate { .. })), "{above:?}");
     // After 20,000 looks all parts are still there: what is summed up by then is no cycle.
     let often = part.cost(&costs, &free, 1e-5, 5.0);
     assert!(matches!(often, Err(PlanError::TooOften { .. })), "{often:?}");
@@ -285,10 +285,9 @@ fn parts_replaced_at_an_age_need_as_many_spares_as_ages_fit() {
     let plain = PlannedLife { life: &life, age: None };
     let without = spares(&plain, at_once, (3, 35.0), 0.9).expect("valid");
     assert!(without.mean < 0.1, "{without:?}");
+    assert_eq!(spares(&plain, at_once, (0, 35.0), 0.9), Err(PlanError::NoParts));
     assert!(matches!(spares(&plain, at_once, (1, 1e6), 0.9), Err(PlanError::TooMany { .. })));
-    assert!(
-        spares(&plain, at_once, (0, 1.0), 0.9).is_err() && spares(&plain, at_once, (1, 1.0), 1.0).is_err()
-    );
+    assert!(spares(&plain, at_once, (1, 1.0), 1.0).is_err());
     let negative = Standstill { failure: -1.0, ..at_once };
     assert!(spares(&plain, negative, (1, 1.0), 0.9).is_err());
 }

@@ -81,7 +81,8 @@ pub struct OneFit<'a> {
     pub first_order_bias: Option<[f64; 2]>,
     /// How well the process fits.
     pub goodness: GoodnessAnswer<'a>,
-    /// The process and, with `--compare`, the others; empty without.
+    /// With `--compare`, the process and the others, all with units alike; `aic` compares them, but for `--resolution`,
+    /// which the process at hand alone takes. Empty without.
     pub comparison: Vec<ComparedAnswer>,
     /// With `--compare`, every process with units alike and with units that differ; empty without.
     pub compare: Vec<CriteriaAnswer>,

@@ -3,6 +3,8 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use clap::builder::RangedU64ValueParser;
+use linkwear_gamma::plan::FLEET;
 use linkwear_gamma::process::{PROCESSES, Process};
 
 use super::super::calendar::Calendar;
@@ -136,7 +138,7 @@ pub struct PlanArguments {
     #[arg(long, value_name = "EXPOSURE", value_parser = from_zero, requires = "look_at")]
     pub at: Option<f64>,
     /// Parts in use, all new at the start: plan spares for them.
-    #[arg(long, value_name = "N", requires = "horizon")]
+    #[arg(long, value_name = "N", requires = "horizon", value_parser = RangedU64ValueParser::<usize>::new().range(1..=FLEET as u64))]
     pub parts: Option<usize>,
     /// Time that spares are planned for.
     #[arg(long, value_name = "TIME", value_parser = positive, requires = "parts")]

@@ -33,6 +33,8 @@ pub struct Analysis {
     pub alternatives: Vec<(&'static dyn Process, Result<Fit, FitError>)>,
     /// Every process with units alike and with units that differ, if they are asked for.
     pub compared: Vec<Compared>,
+    /// Comments of the file that look like rows, where all readings are fitted.
+    pub comments_like_rows: usize,
     /// Bias of the process's parameters to first order in 1/n, where theory has it.
     pub bias: Option<[f64; 2]>,
 }
@@ -117,6 +119,7 @@ impl Analysis {
             bootstrap: drawn(&fit),
             alternatives,
             compared,
+            comments_like_rows: 0,
             bias: fit.first_order_bias(data),
             file,
             fit,

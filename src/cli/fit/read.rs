@@ -1,6 +1,7 @@
 //! Readings from a CSV file. In: path, names of columns. Out: typed readings with their lines, by group. Never knows
 //! how they are fitted.
 
+use std::collections::HashMap;
 use std::path::Path;
 
 use crate::csv_table::CsvTable;
@@ -21,17 +22,18 @@ pub struct Group {
 
 /// All readings, by group in order of first appearance.
 pub fn groups(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<Group>, Failure> {
-    let units = table.texts(&arguments.unit)?;
+    let units = table.names(&arguments.unit)?;
     let wears = wears(arguments, table)?;
     let (resets, limits) = (resets(arguments, table)?, limits(arguments, table)?);
     let exposures = clock(arguments, table)?;
     let covariates = arguments.covariates().map(|name| table.numbers(name));
     let covariates = covariates.collect::<Result<Vec<_>, _>>()?;
     let names = match &arguments.groups {
-        Some(name) => table.texts(name)?,
+        Some(name) => table.names(name)?,
         None => vec!["all".to_owned(); units.len()],
     };
     let mut groups: Vec<Group> = Vec::new();
+    let mut places: HashMap<&str, usize> = HashMap::new();
     for (at, line) in table.lines().enumerate() {
         let (seen, wear) = wears[at];
         let reading = Reading {
@@ -44,20 +46,26 @@ pub fn groups(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<Grou
             reset: resets[at],
             entered_below: limits[at],
         };
-        match groups.iter_mut().find(|group| group.name == names[at]) {
-            Some(group) => group.readings.push(reading),
-            None => groups.push(Group { name: names[at].clone(), readings: vec![reading] }),
+        let place = *places.entry(&names[at]).or_insert(groups.len());
+        if place == groups.len() {
+            groups.push(Group { name: names[at].clone(), readings: Vec::new() });
         }
+        groups[place].readings.push(reading);
     }
     if groups.is_empty() {
-        return Err(Failure::data(
-            &arguments.file,
-            None,
-            "there are no readings",
-            "the file has only a header",
-        ));
+        return Err(no_readings(&arguments.file, table));
     }
     Ok(groups)
+}
+
+fn no_readings(file: &Path, table: &CsvTable<'_>) -> Failure {
+    let message = "there are no readings";
+    let rows = table.comments_like_rows();
+    if rows == 0 {
+        return Failure::data(file, None, message, "the file has only a header");
+    }
+    let message = format!("{message}: {rows} line(s) that look like some begin with #, so they are comments");
+    Failure::data(file, None, message, "put names that begin with # in quotes, or call the units otherwise")
 }
 
 /// Exposure, or Lambda where it is given.

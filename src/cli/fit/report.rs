@@ -61,6 +61,12 @@ fn warnings(arguments: &FitArguments, own: &Analysis) -> Vec<String> {
     let one = own.file.units == 1;
     let mut warnings: Vec<String> =
         one.then(|| "one unit only; how units differ cannot be seen".to_owned()).into_iter().collect();
+    if own.comments_like_rows > 0 {
+        warnings.push(format!(
+            "{} line(s) that look like readings begin with #, so they are comments; put names that begin with # in quotes",
+            own.comments_like_rows
+        ));
+    }
     if own.enter_unseen {
         warnings.push(match own.units {
             None => "units that entered below a limit are followed from their entry on only: where units are alike their increments \
@@ -201,7 +207,9 @@ fn comparison(own: &Analysis) -> Vec<ComparedAnswer> {
         }
         Err(error) => ComparedAnswer { why: Some(error.to_string()), ..named(*process) },
     });
-    [fitted(own.fit.model.process, &own.fit)].into_iter().chain(others).collect()
+    // Of units alike, as the others are: criteria of models with units that differ stand in `compare`.
+    let alike = own.units.as_ref().map_or(&own.fit, |found| &found.plain);
+    [fitted(own.fit.model.process, alike)].into_iter().chain(others).collect()
 }
 
 fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
