@@ -413,10 +413,8 @@ fn bearings_of_wheels_rub_by_the_force_of_rigid_teeth() {
         let force = 2000.0 / (20.0 + 3.0 * (0.06 - m) / 1e-2);
         (force, 3.0 * (0.06 - m) * force / 1e-2)
     };
-    let rubbing = run(
-        &text(&format!("dry_friction = {{ coefficient = 0.1, radius = \"10 mm\", onset = \"1e-6 rad/s\" }}")),
-        0.5,
-    );
+    let rubbing =
+        run(&text("dry_friction = { coefficient = 0.1, radius = \"10 mm\", onset = \"1e-6 rad/s\" }"), 0.5);
     let (force, acceleration) = solved(1e-3 * tangent.hypot(1.0));
     near(at_end(&rubbing, "m.Ft").abs(), force, EXACT);
     near(at_end(&rubbing, "A.a"), acceleration, EXACT);
