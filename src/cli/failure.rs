@@ -66,6 +66,13 @@ impl Failure {
         Self { exit: FAILED, text, coloured: None, errors: vec![error], cycles: None }
     }
 
+    /// Both, one after the other.
+    pub fn and(mut self, other: Self) -> Self {
+        self.text = format!("{}\n\n{}", self.text, other.text);
+        self.errors.extend(other.errors);
+        self
+    }
+
     /// The arguments do not fit this mechanism or each other.
     pub fn usage(message: impl Display, help: impl Display) -> Self {
         Self { exit: USAGE, ..Self::new("C0001", None, message, help) }

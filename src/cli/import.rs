@@ -103,13 +103,14 @@ fn part(arguments: &ImportArguments) -> Result<Answer, Failure> {
     Ok(Answer::new(text, told, None))
 }
 
-/// A fault in the file, or in one that it includes.
+/// Faults in the file, or in one that it includes.
 fn fault(file: &Path) -> impl Fn(ImportError) -> Failure + '_ {
-    move |error| {
+    let one = move |error: &ImportError| {
         let included = error.file.as_ref().map(|name| file.with_file_name(name));
         let line = Some(error.line).filter(|line| *line > 0);
         Failure::data(included.as_deref().unwrap_or(file), line, &error.message, &error.cure)
-    }
+    };
+    move |error| error.others.iter().map(one).fold(one(&error), Failure::and)
 }
 
 /// Files that a robot's file names.

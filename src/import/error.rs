@@ -14,10 +14,36 @@ pub struct ImportError {
     pub message: String,
     /// What to do about it.
     pub cure: String,
+    /// Other faults of the file.
+    pub others: Vec<Self>,
 }
 
 impl ImportError {
     pub(super) fn new(line: usize, message: impl Into<String>, cure: impl Into<String>) -> Self {
-        Self { file: None, line, message: message.into(), cure: cure.into() }
+        Self { file: None, line, message: message.into(), cure: cure.into(), others: Vec::new() }
+    }
+}
+
+/// Faults that are kept until all of a file is read.
+#[derive(Debug, Default)]
+pub(super) struct Faults(Vec<ImportError>);
+
+impl Faults {
+    pub(super) fn push(&mut self, fault: ImportError) {
+        self.0.push(fault);
+    }
+
+    /// What was read, unless it is a fault.
+    pub(super) fn keep<T>(&mut self, read: Result<T, ImportError>) -> Option<T> {
+        read.map_err(|fault| self.push(fault)).ok()
+    }
+
+    /// Whether there are none.
+    pub(super) fn none(mut self) -> Result<(), ImportError> {
+        if self.0.is_empty() {
+            return Ok(());
+        }
+        let first = self.0.remove(0);
+        Err(ImportError { others: self.0, ..first })
     }
 }

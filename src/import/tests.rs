@@ -218,3 +218,20 @@ fn cut_and_mutated_files_are_answered() {
         answered(&mutant[1], Base::Floating, &NoFiles);
     }
 }
+
+#[test]
+fn all_faults_of_links_and_joints_are_told_at_once() {
+    let text = "<robot name=\"b\">\n<link name=\"base\"/>\n\
+        <link name=\"a\"><inertial><mass value=\"-2\"/><inertia ixx=\"1\" iyy=\"1\" izz=\"1\"/></inertial></link>\n<link name=\"c\"/>\n\
+        <joint name=\"j\" type=\"revolute\"><parent link=\"base\"/><child link=\"a\"/><axis xyz=\"0 0 0\"/></joint>\n\
+        <joint name=\"k\" type=\"ball\"><parent link=\"a\"/><child link=\"c\"/></joint>\n\
+        <joint name=\"l\" type=\"fixed\"><parent link=\"a\"/><child link=\"zzz\"/></joint>\n</robot>";
+    let first = from_urdf(text, Base::Fixed).expect_err("faults");
+    let all: Vec<(usize, &str)> =
+        std::iter::once(&first).chain(&first.others).map(|fault| (fault.line, &*fault.message)).collect();
+    let [mass, axis, kind, link] = all[..] else { panic!("{all:?}") };
+    assert!(mass.0 == 3 && mass.1.contains("mass"), "{mass:?}");
+    assert!(axis.0 == 5 && axis.1.contains("axis of joint `j`"), "{axis:?}");
+    assert!(kind.0 == 6 && kind.1.contains("ball"), "{kind:?}");
+    assert!(link.0 == 7 && link.1.contains("`zzz`"), "{link:?}");
+}

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use super::error::ImportError;
+use super::error::{Faults, ImportError};
 use super::files::Files;
 use super::mass::{Mass, Shape, together};
 use super::meshes::Meshes;
@@ -36,33 +36,41 @@ pub fn read(
     let mut shaped = 0;
     let mut by_name = HashMap::new();
     let mut links = Vec::new();
+    let mut faults = Faults::default();
     for node in root.all("link") {
-        let mut link = link(node)?;
+        // Joints may name one with a fault.
+        let named = || {
+            let name = node.attribute("name").unwrap_or_default().to_owned();
+            Link { name, line: node.line, mass: None, is_between: false }
+        };
+        let mut link = faults.keep(link(node)).unwrap_or_else(named);
         if let Some(density) = density.filter(|_| node.first("inertial").is_none()) {
-            link.mass = shapes(node, density, &meshes)?;
+            link.mass = faults.keep(shapes(node, density, &meshes)).flatten();
             shaped += usize::from(link.mass.is_some());
         }
         if by_name.insert(link.name.clone(), links.len()).is_some() {
             let message = format!("two links are called `{}`", link.name);
-            return Err(node.fault(message, "give each a name of its own"));
+            faults.push(node.fault(message, "give each a name of its own"));
         }
         links.push(link);
     }
     let mut joints: Vec<Joint> = Vec::new();
     for node in root.all("joint") {
-        let joint = joint(node, &by_name, &mut left_out)?;
+        let Some(joint) = faults.keep(joint(node, &by_name, &mut left_out)) else { continue };
         if joints.iter().any(|other| other.name == joint.name) {
             let message = format!("two joints are called `{}`", joint.name);
-            return Err(node.fault(message, "give each a name of its own"));
+            faults.push(node.fault(message, "give each a name of its own"));
+            continue;
         }
         if let Some(other) = joints.iter().find(|other| other.child == joint.child) {
             let name = &links[joint.child].name;
             let message =
                 format!("link `{name}` is the child of the joints `{}` and `{}`", other.name, joint.name);
-            return Err(node.fault(message, "URDF is for trees; close the loop in the mechanism file"));
+            faults.push(node.fault(message, "URDF is for trees; close the loop in the mechanism file"));
         }
         joints.push(joint);
     }
+    faults.none()?;
     for (at, node) in root.all("joint").enumerate() {
         joints[at].follows = follows(node, at, &joints, &mut left_out)?;
     }
