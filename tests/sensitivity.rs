@@ -195,3 +195,80 @@ fn what_has_no_derivative_is_refused() {
         SensitivityStudy::new(&file("mechanisms/rssr_rigid.toml")).run().expect_err("nothing wears");
     assert!(matches!(refused, SensitivityError::NothingWears), "{refused}");
 }
+
+/// A rotor on one journal whose contact widens as it wears.
+fn rotor(wear: &str) -> SourceFile {
+    let text = format!(
+        "spec = 1\nname = \"rotor\"\ngravity = [0, \"-9.81 m/s^2\", 0]\n[parameters]\nk = 1e-7\nfb = 1\nal = \"2 1/um\"\nbe = \"3 1/um\"\n\
+         hr = 0.5\n[points]\nO = [0, 0, 0]\n[bodies]\n\
+         rotor = {{ mass = \"10 kg\", centre = \"O\", inertia = [\"1e-2 kg m^2\", \"1e-2 kg m^2\", \"1e-2 kg m^2\"] }}\n[joints]\n\
+         R1 = {{ revolute = [\"ground\", \"rotor\"], at = \"O\", axis = [0, 0, 1], drive = \"2*pi*2 Hz*t\" }}\n[clearance.R1]\n\
+         radial = \"50 um\"\njournal_radius = \"10 mm\"\nlength = \"20 mm\"\nmodulus = \"50 GPa\"\nrestitution = 0.3\n[wear.R1]\n\
+         coefficient = \"k\"\nhardness = \"1 GPa\"\nthreshold = \"40 um\"\nrevolutions_per_cycle = 5e4\n{wear}"
+    );
+    SourceFile { name: "rotor.toml".to_owned(), text }
+}
+
+/// The mean path of a life with a parameter set.
+fn mean_path(source: &SourceFile, (name, value): (&str, f64)) -> f64 {
+    let overrides = vec![(name.to_owned(), format!("{value:?}"))];
+    let options = Options { overrides, ..Options::default() };
+    let mechanism = Mechanism::compile(source, &options, Backend::Auto).expect("a mechanism");
+    let study = LifeStudy {
+        coupling: Some(Coupling::Full),
+        trajectories: Trajectories::MeanPath,
+        ..LifeStudy::new(&mechanism)
+    };
+    study.run().expect("a life").end.cycles
+}
+
+#[test]
+fn lives_vary_with_all_that_the_mean_path_goes_by() {
+    let by_lives = |source: &SourceFile, name: &str, value: f64| {
+        let [below, above] = [0.99, 1.01].map(|part| mean_path(source, (name, part * value)).ln());
+        (above - below) / (1.01_f64.ln() - 0.99_f64.ln())
+    };
+    // How much of the wear the clearance takes: at each clearance turns wear the same, but clearances are others.
+    let source = rotor("feedback = \"fb\"\nalpha = \"al\"\nbeta = \"be\"\n");
+    let found = SensitivityStudy {
+        parameters: Some(["fb", "al", "be", "k"].map(str::to_owned).to_vec()),
+        trajectories: 200,
+        ..SensitivityStudy::new(&source)
+    };
+    let found = found.run().expect("derivatives");
+    let elasticity = |at| found.elasticity(&found.life.cycles, at).expect("a value");
+    let lived = by_lives(&source, "fb", 1.0);
+    // Within a cycle, a twentieth of the life here, a life opens the clearance as physics does.
+    assert!(lived < -0.1 && (elasticity(0) / lived - 1.0).abs() < 0.01, "{} {lived}", elasticity(0));
+    let random = found.random.as_ref().expect("they were asked for");
+    let of_mean = found.elasticity(&random.mean, 0).expect("a value");
+    let error = random.errors[0] / random.mean.value;
+    assert!((of_mean - lived).abs() < 4.0 * error + 2e-3, "{of_mean} +- {error} {lived}");
+    // The mean path is slower than physics by beta over alpha.
+    for (at, expected) in [(1, -1.0), (2, 1.0), (3, -1.0)] {
+        assert!((elasticity(at) - expected).abs() < 1e-6, "{at}: {}", elasticity(at));
+    }
+    let life = mean_path(&source, ("fb", 1.0));
+    assert!((found.life.cycles.value / life - 1.0).abs() < 0.01, "{} {life}", found.life.cycles.value);
+    // Of many small increments few lives would tell all.
+    let short = SourceFile { text: source.text.replace("5e4", "1e3"), ..source };
+    let refused = SensitivityStudy {
+        parameters: Some(vec!["k".to_owned()]),
+        trajectories: 200,
+        ..SensitivityStudy::new(&short)
+    };
+    let refused = refused.run().expect_err("increments of a small shape");
+    assert!(
+        matches!(&refused, SensitivityError::SmallShape { joint, shape } if joint == "R1" && *shape < 0.1),
+        "{refused}"
+    );
+
+    // A journal that wears, too, has no derivatives of its own: lives say what comes of it.
+    let source = rotor("hardness_ratio = \"hr\"\nalpha = \"al\"\n");
+    let found = by(&SensitivityStudy::new(&source), &["k", "hr"]);
+    let elasticity = |at| found.elasticity(&found.life.cycles, at).expect("a value");
+    assert!(found.life.is_by_lives && (elasticity(0) + 1.0).abs() < 1e-3, "{}", elasticity(0));
+    let lived = by_lives(&source, "hr", 0.5);
+    let doubt = found.life.cycles.doubts[1] * 0.5 / found.life.cycles.value;
+    assert!((elasticity(1) - lived).abs() < doubt.max(2e-3), "{} {lived} {doubt}", elasticity(1));
+}

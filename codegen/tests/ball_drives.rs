@@ -255,3 +255,47 @@ fn wrong_uses_are_answered() {
         assert!(told.contains(code) && told.contains(cure), "{joint}\n{told}");
     }
 }
+
+/// The same start, written from the ground and from the body: place, turn and speeds of one as the other sees it.
+#[test]
+fn what_flies_starts_alike_from_either_side_of_its_joint() {
+    let start = |joint: &str, values: &str| {
+        run(
+            &format!(
+                "gravity = [0, 0, 0]\n[points]\nO = {{ at = [0, 0, 0], on = \"a\" }}\n[bodies]\n\
+                 a = {{ mass = \"1 kg\", centre = \"O\", inertia = [\"1e-2 kg m^2\", \"2e-2 kg m^2\", \"2.5e-2 kg m^2\"] }}\n[joints]\n\
+                 J = {{ {joint}, at = \"O\" }}\n[initial]\nJ = {{ {values} }}\n"
+            ),
+            0.1,
+        )
+    };
+    let of = |run: &Run, names: [&str; 3]| names.map(|name| run.column(name).expect("it is there")[0]);
+    let reversed = start(
+        "free = [\"a\", \"ground\"]",
+        "q3 = \"90 deg\", q4 = \"0.2 m\", v3 = \"2 rad/s\", v4 = \"1 m/s\"",
+    );
+    // The ground is turned by 90 degrees as the body sees it, and the body by -90 in the ground.
+    all_near(of(&reversed, ["O.x", "O.y", "O.z"]), [0.0, 0.2, 0.0]);
+    all_near(of(&reversed, ["a.wx", "a.wy", "a.wz"]), [0.0, 0.0, -2.0]);
+    all_near(of(&reversed, ["O.vx", "O.vy", "O.vz"]), [0.4, 1.0, 0.0]);
+    let drawn = start(
+        "free = [\"ground\", \"a\"]",
+        "q3 = \"-90 deg\", q5 = \"0.2 m\", v3 = \"-2 rad/s\", v4 = \"0.4 m/s\", v5 = \"1 m/s\"",
+    );
+    all_near(of(&drawn, ["O.x", "O.y", "O.z"]), [0.0, 0.2, 0.0]);
+    all_near(of(&drawn, ["O.vx", "O.vy", "O.vz"]), [0.4, 1.0, 0.0]);
+    // A ball's speeds are along axes of the joint's first body.
+    let ball = start("spherical = [\"a\", \"ground\"]", "q3 = \"90 deg\", v1 = \"1 rad/s\"");
+    all_near(of(&ball, ["a.wx", "a.wy", "a.wz"]), [0.0, 1.0, 0.0]);
+}
+
+#[test]
+fn a_free_joint_between_two_bodies_takes_no_start() {
+    let inertia = "inertia = [\"1e-2 kg m^2\", \"1e-2 kg m^2\", \"1e-2 kg m^2\"]";
+    let told = refused(&format!(
+        "gravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\n[bodies]\na = {{ mass = \"1 kg\", centre = \"O\", {inertia} }}\n\
+         b = {{ mass = \"1 kg\", centre = \"O\", {inertia} }}\n[joints]\nG = {{ free = [\"ground\", \"a\"], at = \"O\" }}\n\
+         J = {{ free = [\"a\", \"b\"], at = \"O\" }}\n[initial]\nJ = {{ q4 = \"0.1 m\" }}\n"
+    ));
+    assert!(told.contains("E0410") && told.contains("between two bodies"), "{told}");
+}

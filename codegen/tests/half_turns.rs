@@ -85,3 +85,25 @@ fn a_turn_that_goes_on_where_the_first_one_ended_is_looked_at_too() {
     let second = runner.measure(Watch::NONE);
     assert!(matches!(&second, Err(RunError::AngleJumps { angle, .. }) if angle == "R2.q"), "{second:?}");
 }
+
+/// At the dead centre of a yoke, where the angle of its slot passes half a turn, the damper's force is all there is and goes through zero.
+#[test]
+fn a_force_that_goes_through_zero_at_half_a_turn_is_no_jump() {
+    for resistance in ["damping = \"5 N s/m\"", "dry_friction = { coefficient = 0.2, onset = \"50 mm/s\" }"] {
+        let text = format!(
+            "spec = 1\nname = \"yoke\"\ngravity = [0, \"-9.81 m/s^2\", 0]\n[points]\nO = [0, 0, 0]\nP = [\"50 mm\", 0, 0]\n\
+             Y = [\"80 mm\", 0, 0]\n[bodies]\n\
+             crank = {{ mass = \"1 kg\", centre = \"O\", inertia = [\"1 g m^2\", \"1 g m^2\", \"2 g m^2\"] }}\n\
+             yoke = {{ mass = \"1.5 kg\", centre = \"Y\", inertia = [\"1 g m^2\", \"1 g m^2\", \"2 g m^2\"] }}\n[joints]\n\
+             R = {{ revolute = [\"ground\", \"crank\"], at = \"O\", axis = [0, 0, 1], drive = \"10 rad/s*t\" }}\n\
+             G = {{ prismatic = [\"ground\", \"yoke\"], at = \"Y\", axis = [1, 0, 0], {resistance} }}\n\
+             S = {{ slot = [\"yoke\", \"crank\"], at = \"P\", axis = [0, 0, 1], first = [0, 1, 0] }}\n"
+        );
+        let compiled = compiled(text).expect("it is taken");
+        assert!(compiled.warnings.iter().all(|warning| warning.code.as_str() != "W0118"), "{resistance}");
+        let settings = Settings::new(METHODS[0], Span::Time(TAU / 10.0), 101);
+        let system = compiled.interpreter();
+        let run = simulate(&system, compiled.description(), &compiled.parameters(), &settings, Watch::NONE);
+        assert_eq!(run.expect("it starts").stopped, None, "{resistance}");
+    }
+}

@@ -70,6 +70,9 @@ fn failed(arguments: &SensitivityArguments, error: SensitivityError) -> Failure 
         SensitivityError::NoProcess { .. } => {
             life("give it `alpha` and `beta` in [wear], or leave --trajectories out")
         }
+        SensitivityError::SmallShape { .. } => life(
+            "give a cycle more revolutions, or leave --trajectories out; `study --vary` runs random lives at values of a parameter",
+        ),
         SensitivityError::TooLong { .. } => life("look at the motion by `simulate`"),
         _ => life("`study --vary` runs the life at values of its parameters"),
     }
@@ -134,7 +137,7 @@ fn text(name: &str, found: &SensitivityResult) -> String {
         let why = if found.losses > 0 {
             format!("bodies come apart up to {} a turn", plural(found.losses.into(), "time", "times"))
         } else {
-            "derivatives of turns do not settle".to_owned()
+            "derivatives of turns do not settle, or a journal wears too".to_owned()
         };
         text.push_str(&format!(
             "{why}: the life and its derivatives are by lives of the dynamics, at 98 to 102 % of each parameter\n"
@@ -176,7 +179,7 @@ mod tests {
         assert!(told.ends_with(&format!("{rough}left out: `modes`: a whole number\n")), "{told}");
         assert!(
             text("m", &SensitivityResult { losses: 0, ..found.clone() })
-                .contains("derivatives of turns do not settle: ")
+                .contains("derivatives of turns do not settle, or a journal wears too: ")
         );
         let smooth = LifeSensitivity { is_by_lives: false, ..found.life.clone() };
         assert!(!text("m", &SensitivityResult { life: smooth, ..found }).contains("apart"));

@@ -18,6 +18,9 @@ impl Directions {
     /// Of sensitivities whose columns are known up to parts `doubt` of themselves; what is less than that is nothing.
     pub fn of(slopes: &DMatrix<f64>, doubt: &[f64]) -> Self {
         let size = slopes.ncols();
+        if size == 0 {
+            return Self { singular: Vec::new(), vectors: DMatrix::zeros(0, 0) };
+        }
         let triangle = if slopes.nrows() >= size { slopes.clone().qr().r() } else { slopes.clone() };
         let svd = triangle.svd(false, true);
         let errors: Vec<f64> =

@@ -128,6 +128,21 @@ fn a_bound_is_no_estimate() {
 }
 
 #[test]
+fn where_all_lie_at_bounds_nothing_is_estimated() {
+    let y = measured(&[3.0, 1.5], 40, 7, 0.02);
+    for bounds in [free("b", 2.0, 10.0), free("b", 0.1, 1.2)] {
+        let found = sought(|p, x| decay(&[3.0, p[0]], x), &[bounds], y.clone(), None).expect("a fit");
+        let one = &found.parameters[0];
+        assert!(matches!(one.state, State::AtLower | State::AtUpper) && one.error.is_none(), "{one:?}");
+        assert!(
+            found.warnings.iter().any(|warning| warning.contains("widen the bounds")),
+            "{:?}",
+            found.warnings
+        );
+    }
+}
+
+#[test]
 fn noise_that_is_given_is_held_against_the_residuals() {
     let y = measured(&[3.0, 1.5], 40, 9, 0.2);
     let frees = [free("a", 0.1, 30.0), free("b", 0.1, 10.0)];

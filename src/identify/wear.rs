@@ -4,10 +4,11 @@
 //! Archard's depth is proportional to the coefficient, so that wear is a function of coefficient times revolutions: one path, by a
 //! table of what revolutions wear, serves all values of the coefficient.
 
+use linkwear_gamma::monte_carlo::GammaMean;
 use linkwear_runtime::life::{
-    DEFAULT_POINTS, LifeOutcome, LifeSettings, LifeState, MeanIncrement, WearStep, WearTable, run_life,
+    DEFAULT_POINTS, LifeOutcome, LifeSettings, LifeState, WearStep, WearTable, run_life,
 };
-use linkwear_runtime::{DynamicsSource, RevolutionSettings, Watch};
+use linkwear_runtime::{DynamicsSource, GammaRates, RevolutionSettings, Watch};
 
 use super::errors::ModelFault;
 use crate::mechanism::Mechanism;
@@ -98,11 +99,14 @@ impl WearPath {
         let table = WearTable::measure(&settings, &mut source, DEFAULT_POINTS, watch);
         let mut table = table.map_err(|error| interrupted(error.to_string()))?;
         // As many revolutions a cycle as the joint that is worn first takes for a part of its threshold, as it wears when new.
-        let wears = settings
-            .joints
-            .iter()
-            .enumerate()
-            .map(|(at, joint)| joint.wear.of(&table.at(at, 0.0)) / joint.threshold);
+        // On the mean path of a life alpha over beta times what physics wears.
+        let worn = mechanism.description.contacts.iter().filter_map(|contact| contact.wear.as_ref());
+        let rates = worn.map(|wear| wear.scatter.unwrap_or(GammaRates { alpha: 1.0, beta: 1.0 }));
+        let rates: Vec<GammaRates> = rates.collect();
+        let mean = GammaMean::new(&rates);
+        let wears = settings.joints.iter().zip(&rates).enumerate().map(|(at, (joint, rates))| {
+            rates.alpha / rates.beta * joint.wear.of(&table.at(at, 0.0)) / joint.threshold
+        });
         let fastest = wears.fold(0.0, f64::max);
         if fastest.is_nan() || fastest <= 0.0 {
             return Err(failed("wear stands still"));
@@ -112,7 +116,7 @@ impl WearPath {
             joint.revolutions_per_cycle = length;
         }
         let mut state = LifeState::new(&settings, 0).map_err(failed)?;
-        let outcome = run_life(&settings, &mut table, &MeanIncrement, &mut state, watch);
+        let outcome = run_life(&settings, &mut table, &mean, &mut state, watch);
         let ended_by = match outcome.map_err(|error| interrupted(error.to_string()))? {
             LifeOutcome::Failed(end) => end.joint,
             LifeOutcome::Cancelled => return Err(ModelFault::Interrupted),

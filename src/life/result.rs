@@ -228,6 +228,9 @@ impl LifeResult {
     pub fn budget(&self) -> ErrorBudget {
         let (mean, monte_carlo) = match self.statistics() {
             Some(lives) => (lives.mean().value, Contribution::Random(lives.mean_half_width())),
+            None if self.random_lives() == 1 => {
+                (self.mean(), Contribution::Unknown("one random life tells no scatter"))
+            }
             None => (self.end.cycles, Contribution::None("one life, every increment its mean")),
         };
         let table = match self.table_error() {

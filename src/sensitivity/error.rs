@@ -82,7 +82,7 @@ pub enum SensitivityError {
     },
     /// By one parameter there are no lives to compare.
     #[error(
-        "bodies come apart, and there are no lives on both sides of `{parameter}` to tell how that varies"
+        "lives of the dynamics have to tell how this one varies, and there are none on both sides of `{parameter}`"
     )]
     NoLives {
         /// The parameter.
@@ -102,6 +102,16 @@ pub enum SensitivityError {
     NoProcess {
         /// Its name.
         joint: String,
+    },
+    /// Increments of a cycle have so small a shape that the mean of lives hangs on rare ones.
+    #[error(
+        "an increment of a cycle at joint `{joint}` has a shape of {shape:.2}: below 2 few lives tell how the mean of random lives varies"
+    )]
+    SmallShape {
+        /// The joint.
+        joint: String,
+        /// alpha times what an unworn joint wears in a cycle.
+        shape: f64,
     },
     /// A random life does not end.
     #[error("life {life} has not ended after {cycles} cycles")]

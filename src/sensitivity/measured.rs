@@ -123,7 +123,11 @@ impl Survey<'_> {
         let states = self.states(source, wears, watch)?;
         // How the unworn mechanism wears is told as it is.
         let smooth = 1 + states.iter().skip(1).take_while(|state| state.is_smooth()).count();
-        let by_turns = if smooth == states.len() || self.is_path_asked { smooth } else { 1 };
+        let by_turns = match self.variant.has_worn_journals() {
+            true => 1,
+            false if smooth == states.len() || self.is_path_asked => smooth,
+            false => 1,
+        };
         let mut passes = self.passes::<N>();
         let mut found = Points { steps: self.steps.unwrap_or(0), ..Points::default() };
         for (place, state) in states.into_iter().enumerate() {
@@ -136,6 +140,7 @@ impl Survey<'_> {
                 continue;
             }
             let at = &state.turn;
+            self.feed_back(&mut passes, &state.worn, &wearing);
             if found.steps == 0 {
                 found.steps = fine(&mut passes[0], at, &wearing)?;
             }
@@ -155,6 +160,21 @@ impl Survey<'_> {
             found.points.push(Point { worn: state.worn, measured: state.measured, wear, coarse });
         }
         Ok(found)
+    }
+
+    /// Tells turns how clearances that grew by this wear [m] vary with parameters.
+    fn feed_back<const N: usize>(&self, passes: &mut [Pass<N>], worn: &[f64], wearing: &[usize]) {
+        for (number, pass) in passes.iter_mut().enumerate() {
+            let mut grown = vec![[0.0; N]; self.variant.compiled.description().contacts.len()];
+            for (at, joint) in wearing.iter().enumerate() {
+                grown[*joint] = std::array::from_fn(|lane| {
+                    let gamma = |side: &Variant| side.joints[at].gamma();
+                    let of = |sides: &Sides| scale(sides) * sides.slope(gamma) * worn[at];
+                    self.sides.get(N * number + lane).map_or(0.0, of)
+                });
+            }
+            pass.grown = grown;
+        }
     }
 
     /// Settled turns by adaptive steps, without derivatives.

@@ -14,6 +14,8 @@ const STEP: f64 = 1e-5;
 pub(super) struct Along {
     pub flow: WearFlow,
     pub settings: LifeSettings,
+    /// Cycles of the mean path over those by physics, beta over alpha, of every joint.
+    pub slower: Vec<f64>,
     /// ln alpha and ln beta of every joint; nothing without random lives.
     pub processes: Vec<[f64; 2]>,
 }
@@ -38,9 +40,13 @@ pub(super) struct Life {
 impl Along {
     /// When the first joint fails on the mean path, and which.
     pub(super) fn end(&self) -> (usize, f64) {
-        let time = |joint: usize| self.flow.time(joint, 0.0, self.settings.joints[joint].threshold);
-        let times = (0..self.flow.joints()).map(|joint| (joint, time(joint)));
+        let times = (0..self.flow.joints()).map(|joint| (joint, self.life(joint)));
         times.fold((0, f64::INFINITY), |first, one| if one.1 < first.1 { one } else { first })
+    }
+
+    /// When a joint fails on the mean path.
+    fn life(&self, joint: usize) -> f64 {
+        self.slower[joint] * self.flow.time(joint, 0.0, self.settings.joints[joint].threshold)
     }
 
     /// Wear of a joint [m] after so many cycles of the mean path.
@@ -49,7 +55,11 @@ impl Along {
         // Halved to the last place: time grows with wear.
         while high - low > 1e-12 * high {
             let middle = 0.5 * (low + high);
-            if self.flow.time(joint, 0.0, middle) < cycles { low = middle } else { high = middle }
+            if self.slower[joint] * self.flow.time(joint, 0.0, middle) < cycles {
+                low = middle
+            } else {
+                high = middle
+            }
         }
         0.5 * (low + high)
     }
@@ -59,9 +69,10 @@ impl Paths {
     /// The mean path.
     pub(super) fn mean(&self) -> Life {
         let (joint, cycles) = self.base.end();
-        let time = |side: &Along| side.flow.time(joint, 0.0, side.settings.joints[joint].threshold);
-        let slopes =
-            self.beside.iter().map(|(sides, step)| (time(&sides[1]) - time(&sides[0])) / (2.0 * step));
+        let slopes = self
+            .beside
+            .iter()
+            .map(|(sides, step)| (sides[1].life(joint) - sides[0].life(joint)) / (2.0 * step));
         Life { joint, cycles, slopes: slopes.collect() }
     }
 

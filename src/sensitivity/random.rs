@@ -9,12 +9,23 @@ use super::paths::{Life, Paths};
 use super::result::{Derived, RandomSensitivity};
 use super::varied::Variant;
 
+/// Shape of a cycle's increment below which the mean of derivatives is no derivative of the mean: lives that a parameter moves to another
+/// cycle are rare and moved far. At 1.25 it was 2 % off over 20,000 lives, at 2 within its error.
+const LEAST_SHAPE: f64 = 2.0;
+
 /// So many lives by a seed.
 pub(super) fn random(
     (trajectories, seed): (u64, u64),
     paths: &Paths,
     watch: Watch<'_>,
 ) -> Result<RandomSensitivity, SensitivityError> {
+    for (joint, [alpha, _]) in paths.base.processes.iter().enumerate() {
+        let shape = alpha.exp() * paths.base.flow.gain(joint, 0.0);
+        if shape < LEAST_SHAPE {
+            let joint = paths.base.settings.joints[joint].joint.clone();
+            return Err(SensitivityError::SmallShape { joint, shape });
+        }
+    }
     watch.begin("lives");
     let rates =
         paths.base.processes.iter().map(|[alpha, beta]| GammaRates { alpha: alpha.exp(), beta: beta.exp() });

@@ -25,6 +25,8 @@ pub(super) struct Pass<const N: usize> {
     pub turns: Turns<N>,
     /// Tangents where the motion last began: of coordinates and speeds, of the speeds at which gaps closed.
     tangents: Vec<[f64; N]>,
+    /// Tangents of how far clearances have grown [m], joint by joint.
+    pub grown: Vec<[f64; N]>,
 }
 
 /// A settled turn.
@@ -51,13 +53,17 @@ impl From<TooLong> for Unsettled {
 
 impl<const N: usize> Pass<N> {
     pub(super) fn new(turns: Turns<N>, state: usize) -> Self {
-        Self { turns, tangents: vec![[0.0; N]; state] }
+        Self { turns, tangents: vec![[0.0; N]; state], grown: Vec::new() }
     }
 
     /// Where a motion is, with tangents as far as they are known.
     fn state(&mut self, at: &TurnState) -> State<N> {
-        self.turns.wear(at.joints.iter().map(|joint| joint.worn));
         let varied = |(value, tangents): (&f64, &[f64; N])| Varied { value: *value, tangents: *tangents };
+        let grown = at.joints.iter().enumerate().map(|(joint, state)| {
+            let tangents = self.grown.get(joint).copied().unwrap_or([0.0; N]);
+            Varied { value: state.worn, tangents }
+        });
+        self.turns.wear(grown);
         let flat = at.q.iter().chain(&at.v).zip(&self.tangents).map(varied).collect();
         let touch = |(joint, tangents): (&ClearanceState, &[f64; N])| Touch {
             is_touching: joint.memory.touching > 0.5,

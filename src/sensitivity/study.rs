@@ -49,7 +49,7 @@ pub struct SensitivityStudy<'s> {
     pub step: Option<f64>,
     /// Clearances at which turns are run, from that of the unworn mechanism to that of the failed one, at least 3.
     pub points: usize,
-    /// Random lives. 0: none.
+    /// Random lives, 2 at least. 0: none.
     pub trajectories: u64,
     /// Seed of their random numbers.
     pub seed: u64,
@@ -89,6 +89,10 @@ impl<'s> SensitivityStudy<'s> {
             let (name, value) = ("the number of clearances", self.points as f64);
             return Err(SensitivityError::Setting { name, value, need: "3 or more" });
         }
+        if self.trajectories == 1 {
+            let (name, need) = ("the number of random lives", "2 or more, or 0: one tells no scatter");
+            return Err(SensitivityError::Setting { name, value: 1.0, need });
+        }
         let base = Variant::new(self.source, &self.options)?;
         let steps = self.steps(base.turn)?;
         watch.begin("parameters");
@@ -97,7 +101,7 @@ impl<'s> SensitivityStudy<'s> {
             .map_err(|error| SensitivityError::Wear(error.to_string()))?;
         let settings = LifeSettings::new(base.joints.clone());
         watch.begin("path");
-        let wears = with_source(&mechanism, |source| self.wears(&settings, source))?;
+        let wears = with_source(&mechanism, |source| self.wears(&base, &settings, source))?;
         watch.begin("turns");
         let survey = Survey {
             variant: &base,
@@ -129,7 +133,7 @@ impl<'s> SensitivityStudy<'s> {
     fn steps(&self, turn: f64) -> Result<Option<u64>, SensitivityError> {
         let Some(step) = self.step else { return Ok(None) };
         let steps = (turn / step).ceil();
-        if !(step > 0.0 && (1.0..1e9).contains(&steps)) {
+        if !(step > 0.0 && step <= turn && steps < 1e9) {
             let (name, need) = ("the step", "above zero and at most a turn");
             return Err(SensitivityError::Setting { name, value: step, need });
         }
@@ -171,13 +175,16 @@ impl<'s> SensitivityStudy<'s> {
     /// Wears of all joints [m] where turns are run: those of the joint that fails are as far apart as clearances grow by one factor.
     fn wears(
         &self,
+        base: &Variant,
         settings: &LifeSettings,
         source: &mut DynamicsSource<'_>,
     ) -> Result<Vec<Vec<f64>>, SensitivityError> {
         let table = WearTable::measure(settings, source, self.points, Watch::NONE)
             .map_err(|error| SensitivityError::Wear(error.to_string()))?;
         let flow = table.flow(settings).ok_or(SensitivityError::NoPath)?;
-        let along = Along { flow, settings: settings.clone(), processes: Vec::new() };
+        let (slower, settings) = (base.slower(), settings.clone());
+        let along = Along { flow, settings, slower, processes: Vec::new() };
+        let settings = &along.settings;
         let (lead, life) = along.end();
         let threshold = settings.joints[lead].threshold;
         let growth = settings.joints[lead].gamma() * threshold / settings.joints[lead].clearance;
@@ -227,7 +234,7 @@ impl<'s> SensitivityStudy<'s> {
         Ok(result(base, (sides, left_out), measured, (life, drawn)))
     }
 
-    /// By lives of the dynamics, where turns at some clearances say too little. Parameters without such lives are left out.
+    /// By lives of the dynamics, where turns at some clearances say too little, or a journal wears, whose depth has no derivatives. Parameters without such lives are left out.
     fn rough(
         &self,
         (base, mechanism): (&Variant, &Mechanism),
@@ -313,7 +320,7 @@ impl<'s> SensitivityStudy<'s> {
         let table = WearTable::of_points(&settings, points.iter().map(moved).collect())?;
         let flow = table.flow(&settings).ok_or(SensitivityError::NoPath)?;
         let processes = if self.trajectories > 0 { processes(variant, &flow)? } else { Vec::new() };
-        Ok(Along { flow, settings, processes })
+        Ok(Along { flow, settings, slower: variant.slower(), processes })
     }
 }
 

@@ -107,11 +107,11 @@ impl<const N: usize> Turns<N> {
     }
 
     /// How worn the joints are [m].
-    pub(super) fn wear(&mut self, worn: impl Iterator<Item = f64>) {
+    pub(super) fn wear(&mut self, worn: impl Iterator<Item = Varied<N>>) {
         let first = self.memory();
         for (joint, worn) in worn.enumerate() {
             for function in [&mut self.motion, &mut self.stages] {
-                function.put(first + MEMORY * joint, worn);
+                function.put_varied(first + MEMORY * joint, &worn);
             }
         }
     }

@@ -100,6 +100,17 @@ impl Variant {
         Ok(Self { motion, closure, turn, joints, compiled })
     }
 
+    /// By how much longer than by physics the mean path of every wearing joint takes, beta over alpha.
+    pub(super) fn slower(&self) -> Vec<f64> {
+        let wears = self.compiled.description().contacts.iter().filter_map(|contact| contact.wear.as_ref());
+        wears.map(|wear| wear.scatter.map_or(1.0, |rates| rates.beta / rates.alpha)).collect()
+    }
+
+    /// Whether a journal wears beside its bush.
+    pub(super) fn has_worn_journals(&self) -> bool {
+        self.joints.iter().any(|joint| joint.journal_bins.is_some())
+    }
+
     /// Both sides of a parameter.
     pub(super) fn sides(
         &self,

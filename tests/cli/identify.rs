@@ -125,6 +125,16 @@ fn a_coefficient_of_wear_is_found_in_inspections_and_one_path_serves_all_its_val
     // The physics' clock is faster than linear: wear opens the clearance, which narrows the contact.
     assert!(number(&clocks["interval95"]["lower"]) > 1.0, "{clocks}");
     assert!(number(&clocks["aic_difference"]) > 2.0, "{clocks}");
+    // Where alpha and beta differ the mean path of a life is faster than physics by their quotient, and so is this one.
+    let folder = Folder::new("identify-rates");
+    let text = std::fs::read_to_string(BUSH).expect("a file of this repository");
+    assert!(!text.contains("alpha ="), "{text}");
+    let text = text.replace("threshold = ", "alpha = \"3 1/um\"\nbeta = \"2 1/um\"\nthreshold = ");
+    let file = folder.write("rates.toml", &text);
+    let columns = ["--inspections", INSPECTIONS, "--wear", "wear", "--format", "json"];
+    let slower = linkwear(&[&["identify", &file], &columns[..], &by].concat()).json();
+    let ratio = number(&parameter(&slower, "k_wear")["estimate"]) / number(&one["estimate"]);
+    assert!((ratio * 1.5 - 1.0).abs() < 1e-3, "{ratio}");
     // Hardness divides what the coefficient multiplies.
     let both =
         [&by[..], &["--free", "hardness=100 MPa..500 MPa", "--gauge", "2 um", "--starts", "1"]].concat();

@@ -7,7 +7,9 @@ use crate::model::{Carrier, Formula, Start};
 use super::geometry::Geometry;
 use super::kinematics::{Poses, Twist, carried_twist, twists};
 use super::linkage::{Freedom, Link};
-use super::orientation::{link_displacement, quaternion_of_vector, quaternion_product};
+use super::orientation::{
+    link_displacement, quaternion_of_vector, quaternion_product, rotation_of_quaternion,
+};
 
 /// Start coordinates and speeds of all, driven ones included, and which of them the file demands.
 pub struct StartValues<'g> {
@@ -77,6 +79,11 @@ fn wished_speed<'g>(geometry: &Geometry<'g>, link: &Link, number: usize) -> (Exp
     wished(geometry, link, number, |start| start.speed.as_ref())
 }
 
+/// Where the point of a link's joint is at the reference pose, in W [m].
+fn origin_of<'g>(geometry: &Geometry<'g>, link: &Link) -> Vec3<'g> {
+    geometry.described(geometry.mechanism.joint(link.joint).at, Carrier::Body(link.body))
+}
+
 impl<'g> StartValues<'g> {
     fn position(&mut self, geometry: &Geometry<'g>, at: usize) {
         let link = &geometry.linkage.links[at];
@@ -118,11 +125,15 @@ impl<'g> StartValues<'g> {
             (self.q[first + i], self.held_q[first + i]) = (component, held);
         }
         if link.freedom == Freedom::Free {
-            let origin =
-                geometry.described(geometry.mechanism.joint(link.joint).at, Carrier::Body(link.body));
-            for (i, origin) in origin.into_iter().enumerate() {
-                let (moved, held) = wished_position(geometry, link, 3 + i);
-                (self.q[first + 4 + i], self.held_q[first + 4 + i]) = (origin + moved, held);
+            let moved = [3, 4, 5].map(|i| wished_position(geometry, link, i));
+            let way = Vec3(moved.map(|(component, _)| component));
+            // Of the ground as the body sees it, if the joint is reversed.
+            let way = match linkage.reversed[link.joint.index()] {
+                true => -(rotation_of_quaternion(relative) * way),
+                false => way,
+            };
+            for (i, place) in (origin_of(geometry, link) + way).into_iter().enumerate() {
+                (self.q[first + 4 + i], self.held_q[first + 4 + i]) = (place, moved[i].1);
             }
         }
     }
@@ -150,15 +161,29 @@ impl<'g> StartValues<'g> {
             let (wished, held): (Vec<Expr<'g>>, Vec<bool>) =
                 (0..link.freedom.speeds()).map(|i| wished_speed(geometry, link, i)).unzip();
             let relative = Vec3::first_of(&wished);
-            let relative = if linkage.reversed[link.joint.index()] { -relative } else { relative };
+            let is_reversed = linkage.reversed[link.joint.index()];
             let all = twists(&poses, &self.v);
             let parent = link.parent.map_or_else(|| Twist::none(g), |parent| all[parent]);
             let carried = carried_twist(parent, &poses.relative[at]);
-            // Wished components are along axes that move with the parent and are parallel to W at the reference pose.
-            let turning = poses.relative[at].inwards(geometry.turn(&linkage.frame(link.parent), relative));
-            let mut speeds = (carried.omega + turning).0.to_vec();
+            // Wished components are along axes that move with the joint's parent and are parallel to W at the reference pose.
+            let along = |vector: Vec3<'g>| geometry.turn(&link.frame, vector);
+            let turning = match is_reversed {
+                true => -along(relative),
+                false => poses.relative[at].inwards(geometry.turn(&linkage.frame(link.parent), relative)),
+            };
+            let omega = carried.omega + turning;
+            let mut speeds = omega.0.to_vec();
             if link.freedom == Freedom::Free {
-                speeds.extend(poses.world[at].inwards(Vec3::first_of(&wished[3..])));
+                let wished = Vec3::first_of(&wished[3..]);
+                let place = Vec3::first_of(&self.q[link.first_coordinate + 4..]);
+                // How the ground moves as a body sees it that moves and turns.
+                speeds.extend(match is_reversed {
+                    true => {
+                        -(along(wished)
+                            + omega.cross(poses.world[at].inwards(origin_of(geometry, link) - place)))
+                    }
+                    false => poses.world[at].inwards(wished),
+                });
             }
             self.v[link.speeds()].copy_from_slice(&speeds);
             self.held_v[link.speeds()].copy_from_slice(&held);

@@ -14,7 +14,7 @@ use super::turn::told;
 
 /// Halvings of a step of 5 degrees: the positions on both sides are 1e-12 rad apart, what forces differ by else.
 const HALVINGS: usize = 36;
-/// Part of the largest force by which such positions cannot differ, unless it changes by a hundred thousand times itself in a
+/// Part of the largest force of the step by which such positions cannot differ, unless it changes by a hundred thousand times itself in a
 /// radian.
 const JUMP: f64 = 1e-7;
 
@@ -59,7 +59,10 @@ fn jump(case: &Case<'_>, course: &Course<'_>, (from, end): (&Waypoint, f64), pla
         Some(case.resistance(t, &waypoint.q, &course.speeds(&waypoint)?))
     };
     let (one, other) = (forces(low)?, forces(high)?);
-    let largest = one.iter().chain(&other).fold(0.0_f64, |most, force| most.max(force.abs()));
+    // There a force may go through zero, and be all that there is.
+    let ends = [forces(from.t), forces(end)].into_iter().flatten().flatten();
+    let sizes = one.iter().chain(&other).copied().chain(ends);
+    let largest = sizes.fold(0.0_f64, |most, force| most.max(force.abs()));
     let differs = one.iter().zip(&other).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
     (differs > JUMP * largest).then_some(high)
 }

@@ -12,7 +12,8 @@ use crate::linear::largest;
 const ASIDE: f64 = 1e-10;
 /// Such states are some last places of the time apart at least.
 const LAST_PLACES: f64 = 64.0 * f64::EPSILON;
-/// Part of the largest force by which such states cannot differ, unless it changes a thousandfold over the step.
+/// Part of the largest force of the step by which such states cannot differ, unless it changes a thousandfold over the step. At the half turn
+/// itself a force may go through zero, and be all that there is.
 const JUMP: f64 = 1e-7;
 
 /// Writes the state at a time within the step.
@@ -49,12 +50,13 @@ pub(super) fn check(
     let (from, to) = crossing.between;
     // A step may be so short that a part of it is no other time: the jump itself shortens it.
     let aside = (ASIDE * (to - from)).max(LAST_PLACES * to.abs());
-    let [one, other] = [before - aside, after + aside].map(|t| {
+    let [begin, one, other, end] = [from, before - aside, after + aside, to].map(|t| {
         within(t, &mut state);
         forces(motion, t, &state)
     });
     let differs = one.iter().zip(&other).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-    if differs > JUMP * largest(&one).max(largest(&other)) {
+    let size = [begin, one, other, end].iter().map(|forces| largest(forces)).fold(0.0, f64::max);
+    if differs > JUMP * size {
         return Err(RunError::AngleJumps { t: after, angle: name.to_owned() });
     }
     Ok(())

@@ -6,7 +6,7 @@ use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::id::{BodyId, JointId};
-use crate::model::{Coordinate, Joint, JointModel, Start};
+use crate::model::{Carrier, Coordinate, Joint, JointModel, Start};
 use crate::source::Span;
 use crate::spec::{At, Dimension, File, Literal, Name, Quantity, StartSpec, StartTable};
 
@@ -35,6 +35,17 @@ impl Resolver<'_> {
                 }
                 let Some(id) = self.joint_named(name, &what) else { continue };
                 let joint = &joints[id.index()];
+                let sides = [joint.parent, joint.child];
+                if joint.model.rows() == 0 && !sides.contains(&Carrier::Ground) {
+                    let message = format!(
+                        "the free joint `{}` is between two bodies, and has start values",
+                        name.value
+                    );
+                    self.refuse(Code::BadStart, name.span, message).help(
+                        "what flies starts in the ground: give each body a free joint to it, `free = [\"ground\", ..]`",
+                    );
+                    continue;
+                }
                 for written in self.written(name, &value.value, &joint.model, key) {
                     let start = self.start(id, joint, &written, held, &place(key, "joint", name));
                     self.check_start(joint, &start, &starts);
