@@ -134,7 +134,8 @@ fn a_coefficient_of_wear_is_found_in_inspections_and_one_path_serves_all_its_val
     let columns = ["--inspections", INSPECTIONS, "--wear", "wear", "--format", "json"];
     let slower = linkwear(&[&["identify", &file], &columns[..], &by].concat()).json();
     let ratio = number(&parameter(&slower, "k_wear")["estimate"]) / number(&one["estimate"]);
-    assert!((ratio * 1.5 - 1.0).abs() < 1e-3, "{ratio}");
+    // Within a cycle, a hundredth of the path, the clearance opens as by physics.
+    assert!((ratio * 1.5 - 1.0).abs() < 1e-2, "{ratio}");
     // Hardness divides what the coefficient multiplies.
     let both =
         [&by[..], &["--free", "hardness=100 MPa..500 MPa", "--gauge", "2 um", "--starts", "1"]].concat();

@@ -153,15 +153,15 @@ impl Resolver<'_> {
                 .help("72 are one every 5 degrees; 8 to 10000 are possible");
         }
         self.check_variation(name, own);
-        if let (Some(feedback), Some(true)) = (&own.feedback, own.profile) {
+        let feedback = self.number(name, ("feedback", own.feedback.as_ref()), Dimension::NONE, true, 1.0);
+        if let (Some(written), Some(true), true) = (&own.feedback, own.profile, feedback != 1.0) {
             let message = format!(
-                "joint `{}` has `feedback` and `profile`: with its profile the worn surface itself is what bodies meet",
+                "joint `{}` has `feedback` other than 1 and `profile`: with its profile the worn surface itself is what bodies meet",
                 name.value
             );
-            self.refuse(Code::ConflictingKeys, feedback.span, message)
+            self.refuse(Code::ConflictingKeys, written.span, message)
                 .help("leave out one of them: `feedback` is for a clearance that grows alike all round");
         }
-        let feedback = self.number(name, ("feedback", own.feedback.as_ref()), Dimension::NONE, true, 1.0);
         let mut positive = |key: &str, written: &Option<Quantity>, dimension: Dimension, default: f64| {
             self.number(name, (key, written.as_ref()), dimension, false, default)
         };
