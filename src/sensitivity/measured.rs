@@ -123,11 +123,8 @@ impl Survey<'_> {
         let states = self.states(source, wears, watch)?;
         // How the unworn mechanism wears is told as it is.
         let smooth = 1 + states.iter().skip(1).take_while(|state| state.is_smooth()).count();
-        let by_turns = match self.variant.has_worn_journals() {
-            true => 1,
-            false if smooth == states.len() || self.is_path_asked => smooth,
-            false => 1,
-        };
+        let is_path_told = smooth == states.len() || self.is_path_asked;
+        let by_turns = if is_path_told && !self.variant.has_worn_journals() { smooth } else { 1 };
         let mut passes = self.passes::<N>();
         let mut found = Points { steps: self.steps.unwrap_or(0), ..Points::default() };
         for (place, state) in states.into_iter().enumerate() {

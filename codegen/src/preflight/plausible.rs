@@ -286,11 +286,11 @@ fn loose(mechanism: &Mechanism, analysis: &Analysis) -> Option<Diagnostic> {
     let flying = mechanism.joints.iter().filter(|joint| joint.model.rows() == 0).map(|joint| joint.span);
     let flying: Vec<Span> = flying.collect();
     let driven = mechanism.joints.iter().find(|joint| !joint.drives.is_empty()).map(|joint| joint.span);
-    let is_known = hanging.is_empty() && flying.is_empty();
+    let is_nobody = hanging.is_empty() && flying.is_empty();
     let warning = Diagnostic::new(Code::LooseBody, message)
         .at_each(hanging.iter().map(|body| body.span), "hangs by one joint")
         .at_each(flying, "leaves every freedom")
-        .at_each(driven.filter(|_| is_known), "driven here");
+        .at_each(driven.filter(|_| is_nobody), "driven here");
     Some(warning.help(
         "add the joint that is missing; if a body is to swing or fly freely, give each freedom of its joint a start value in [initial]",
     ))
