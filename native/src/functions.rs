@@ -74,7 +74,7 @@ impl Functions {
 
     /// Both parts of a step, from the tapes of all entries: see [`linkwear_runtime::Bundle`].
     pub(crate) fn of_steps<const LANES: usize>(tapes: &dyn Tapes, plan: &StepPlan) -> Result<Self, Refusal> {
-        Self::of_parts::<LANES>(tapes, plan, &[Part::Attempt, Part::Conclude])
+        Self::of_parts::<LANES>(tapes, plan, &[Part::Step, Part::Conclude])
     }
 
     /// The derivative with the laws of contact inside: see [`linkwear_runtime::WithLaws`].

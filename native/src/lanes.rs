@@ -96,13 +96,13 @@ impl<const N: usize> Bundle<N> for NativeBundle<N> {
         self.parts.workspace().div_ceil(N)
     }
 
-    fn attempt(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
+    fn step(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
         let (question, answer) = (question.as_flattened(), answer.as_flattened_mut());
         self.parts.run(0, question, answer, workspace.as_flattened_mut());
     }
 
-    fn conclude(&self, arena: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
-        let (arena, answer) = (arena.as_flattened(), answer.as_flattened_mut());
-        self.parts.run(1, arena, answer, workspace.as_flattened_mut());
+    fn conclude(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]) {
+        let (question, answer) = (question.as_flattened(), answer.as_flattened_mut());
+        self.parts.run(1, question, answer, workspace.as_flattened_mut());
     }
 }

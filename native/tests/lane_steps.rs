@@ -114,15 +114,16 @@ fn measure<const N: usize>(
 /// Seconds of the machine code of a step, per lane.
 fn code_alone<const N: usize>(plan: &StepPlan, bundle: &dyn Bundle<N>) -> f64 {
     // What the numbers are does not matter: there are no branches.
-    let mut arena = vec![[0.5; N]; plan.arena()];
-    let mut answer = vec![[0.0; N]; plan.arena() + 200];
+    // Beginning where a line of the cache does, as in lives.
+    let mut numbers = vec![0.5_f64; plan.arena() * N + 8];
+    let first = numbers.as_ptr().align_offset(64);
+    let arena: &mut [[f64; N]] = numbers[first..].as_chunks_mut().0;
     let mut workspace = vec![[0.0; N]; bundle.workspace()];
     let rounds = 20_000;
     let began = Instant::now();
     for _ in 0..rounds {
-        let (question, rest) = arena.split_at_mut(plan.question());
-        bundle.attempt(question, rest, &mut workspace);
-        bundle.conclude(&arena, &mut answer, &mut workspace);
+        let (question, rest) = arena.split_at_mut(plan.step_question());
+        bundle.step(question, rest, &mut workspace);
     }
     began.elapsed().as_secs_f64() / f64::from(rounds) / N as f64
 }

@@ -7,6 +7,7 @@ mod inner;
 mod places;
 mod plan;
 mod slope;
+mod step;
 mod whole_step;
 
 pub use crate::system::{TOTALS, WORKS};
@@ -23,8 +24,8 @@ pub(crate) const fn is_energy(total: usize) -> bool {
 
 /// Steps of `N` trajectories of one mechanism by [`crate::Integrator::Rk43`], as its [`StepPlan`] says. No wear by bearing angle.
 ///
-/// All functions read and write one arena, in which everything has its place: what a trajectory brings along, then what
-/// [`Self::attempt`] finds, where [`Self::conclude`] reads it. Neither allocates.
+/// Both functions read and write one arena, in which everything has its place: what a trajectory brings along, the end of its step,
+/// what is there. Neither allocates.
 pub trait Bundle<const N: usize> {
     /// The counts of the mechanism.
     fn sizes(&self) -> Sizes;
@@ -32,15 +33,17 @@ pub trait Bundle<const N: usize> {
     /// Length of the scratch slice.
     fn workspace(&self) -> usize;
 
-    /// In: the beginning of the arena. Out: the rest of it, the ends of the steps as far as they need no projection.
+    /// In: the beginning of the arena. Out: the rest of it, the ends of the steps as if none of them needed a projection, what is
+    /// there, and the errors of the steps.
     ///
     /// # Panics
     /// If a slice is shorter than the plan says, or the scratch slice than [`Self::workspace`].
-    fn attempt(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]);
+    fn step(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]);
 
-    /// In: the arena, the ends of the steps on the constraints. Out: what is there, and the errors of the steps.
+    /// What is at the ends of the steps, after some of them have been put onto the constraints, and the errors of the steps. In: the
+    /// arena up to there. Out: the rest of it.
     ///
     /// # Panics
-    /// As [`Self::attempt`].
-    fn conclude(&self, arena: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]);
+    /// As [`Self::step`].
+    fn conclude(&self, question: &[[f64; N]], answer: &mut [[f64; N]], workspace: &mut [[f64; N]]);
 }

@@ -12,8 +12,8 @@ use super::number::{Number, Recorder};
 /// A part of a plan that is a function of its own.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Part {
-    /// [`linkwear_runtime::Bundle::attempt`].
-    Attempt,
+    /// [`linkwear_runtime::Bundle::step`].
+    Step,
     /// [`linkwear_runtime::Bundle::conclude`].
     Conclude,
     /// [`linkwear_runtime::WithLaws::derivative`].
@@ -26,7 +26,7 @@ impl Part {
     /// What messages call it.
     pub(crate) const fn name(self) -> &'static str {
         match self {
-            Self::Attempt => "attempt",
+            Self::Step => "step",
             Self::Conclude => "conclude",
             Self::Derivative => "derivative",
             Self::WholeStep(_) => "whole_step",
@@ -50,14 +50,14 @@ pub(crate) fn fuse(tapes: &dyn Tapes, plan: &StepPlan, part: Part) -> Result<Low
     let answers = RefCell::default();
     let evaluate: Evaluate<'_, Number<'_>> = &|entry, input| ask(tapes, &answers, entry, input);
     let count = match part {
-        Part::Attempt => plan.question(),
-        Part::Conclude => plan.arena(),
+        Part::Step => plan.step_question(),
+        Part::Conclude => plan.conclude_question(),
         Part::Derivative => plan.derivative_question(),
         Part::WholeStep(_) => plan.classical_step_question(),
     };
     let inputs = inputs(&recorder, count);
     let outputs = match part {
-        Part::Attempt => plan.attempt(evaluate, &inputs),
+        Part::Step => plan.step(evaluate, &inputs),
         Part::Conclude => plan.conclude(evaluate, &inputs),
         Part::Derivative => plan.derivative(evaluate, &inputs),
         Part::WholeStep(sum) => plan.classical_step(evaluate, &inputs, sum),

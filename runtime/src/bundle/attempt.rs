@@ -8,7 +8,7 @@ use crate::system::{Entry, StageSum};
 
 impl StepPlan {
     /// The inner stages of a step, its end before it is put onto the constraints, and whether it has to be.
-    pub fn attempt<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
+    pub(super) fn attempt<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
         let (at, one) = (&self.places, |place: usize| question[place]);
         let length = one(at.length);
         let begin = Begin {
@@ -33,7 +33,7 @@ impl StepPlan {
         let residuals = closure[..self.sizes.all_rows].to_vec();
         let flags = vec![nearness, least, is_untouched, has_longer_row, metres, radians];
         let answer = [next, raw, last_slope, pivots, flags, squares, residuals].concat();
-        debug_assert_eq!(self.question() + answer.len(), self.arena());
+        debug_assert_eq!(self.step_question() + answer.len(), self.conclude_question());
         answer
     }
 

@@ -1,7 +1,6 @@
 //! The end of a step side by side with others: what is there, how large the error is, whether anything happened, over any scalar. In: an
-//! arena. Out: a [`Conclusion`]. Never knows machine code.
+//! arena. Out: its [`super::Conclusion`]. Never knows machine code.
 
-use super::places::Conclusion;
 use super::plan::{Evaluate, StepPlan, none_of};
 use super::slope::Slope;
 use super::{TOTALS, WORKS, is_energy};
@@ -51,7 +50,7 @@ impl StepPlan {
         ledger.visit(&mut |number| flags.push(*number));
         flags.extend([is_quiet, error, growth]);
         let answer = [slope.state, slope.contacts, energy, pivots, flags].concat();
-        debug_assert_eq!(answer.len(), Conclusion::new(&self.sizes).all);
+        debug_assert_eq!(self.conclude_question() + answer.len(), self.arena());
         answer
     }
 

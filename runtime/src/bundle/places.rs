@@ -1,5 +1,4 @@
-//! Where numbers of a step lie: in the arena, and in the answer of its last evaluation. In: counts. Out: places.
-//! Never knows what is done with them.
+//! Where numbers of a step lie in the arena. In: counts. Out: places. Never knows what is done with them.
 
 use std::ops::Range;
 
@@ -59,8 +58,8 @@ pub(crate) struct Places {
     pub(crate) squares_at_end: Range<usize>,
     /// Residuals of all rows there.
     pub(crate) residuals: Range<usize>,
-    /// Length of all.
-    pub(crate) all: usize,
+    /// What is at the end.
+    pub(crate) conclusion: Conclusion,
 }
 
 impl Places {
@@ -68,7 +67,7 @@ impl Places {
         let Sizes { coordinates, speeds, rows, .. } = *sizes;
         let flat = sizes.flat_state();
         let mut next = Next(0);
-        let mut places = Self {
+        Self {
             parameters: next.some(sizes.parameters),
             begin: next.one(),
             length: next.one(),
@@ -97,19 +96,17 @@ impl Places {
             open: [next.one(), next.one()],
             squares_at_end: next.some(rows),
             residuals: next.some(sizes.all_rows),
-            all: 0,
-        };
-        places.all = next.0;
-        places
+            conclusion: Conclusion::new(sizes, next),
+        }
     }
 
-    /// Length of the question of an attempt.
+    /// Length of the question of a step.
     pub(crate) fn question(&self) -> usize {
         self.next.start
     }
 }
 
-/// Places in the answer of the last evaluation, in order.
+/// Places of what is at the end, in order.
 #[derive(Clone, Debug)]
 pub(crate) struct Conclusion {
     /// The slope at the end.
@@ -132,13 +129,12 @@ pub(crate) struct Conclusion {
     /// The error of the step, 1 just accepted; by how much the next one may be longer.
     pub(crate) error: usize,
     pub(crate) growth: usize,
-    /// Length of all.
+    /// Where all of the arena ends.
     pub(crate) all: usize,
 }
 
 impl Conclusion {
-    pub(crate) fn new(sizes: &Sizes) -> Self {
-        let mut next = Next(0);
+    fn new(sizes: &Sizes, mut next: Next) -> Self {
         let mut places = Self {
             slope: next.some(sizes.flat_state()),
             contacts: next.some(CONTACT_ANSWER * sizes.contacts),
@@ -155,6 +151,10 @@ impl Conclusion {
         };
         places.all = next.0;
         places
+    }
+
+    pub(crate) fn start(&self) -> usize {
+        self.slope.start
     }
 
     /// Where the totals of a joint are among slopes.

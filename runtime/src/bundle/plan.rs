@@ -64,14 +64,19 @@ impl StepPlan {
         in_words(&self.joints)
     }
 
-    /// Length of the question of [`Self::attempt`].
-    pub fn question(&self) -> usize {
+    /// Length of the question of [`Self::step`].
+    pub fn step_question(&self) -> usize {
         self.places.question()
     }
 
-    /// Length of the question of [`Self::conclude`]: that of an attempt and its answer.
+    /// Length of the question of [`Self::conclude`]: that of a step and where it ends.
+    pub fn conclude_question(&self) -> usize {
+        self.places.conclusion.start()
+    }
+
+    /// Length of all numbers of a step.
     pub fn arena(&self) -> usize {
-        self.places.all
+        self.places.conclusion.all
     }
 
     /// Question of an entry of coordinates and speeds.

@@ -35,28 +35,20 @@ pub(super) struct Lanes<'a, const N: usize> {
     bundle: &'a dyn Bundle<N>,
     pub(super) sizes: Sizes,
     places: Places,
-    conclusion: Conclusion,
     /// See [`Bundle`].
     arena: Room<N>,
-    answer: Room<N>,
     workspace: Room<N>,
+    /// Whether a lane has put the end of its step elsewhere since all were tried.
+    has_moved: bool,
 }
 
 impl<'a, const N: usize> Lanes<'a, N> {
     pub(super) fn new(bundle: &'a dyn Bundle<N>, parameters: &[f64]) -> Self {
         let sizes = bundle.sizes();
-        let (places, conclusion) = (Places::new(&sizes), Conclusion::new(&sizes));
-        let mut arena = Room::new(places.all);
+        let places = Places::new(&sizes);
+        let mut arena = Room::new(places.conclusion.all);
         (0..N).for_each(|lane| arena.put(lane, places.parameters.start, parameters));
-        Self {
-            bundle,
-            sizes,
-            arena,
-            answer: Room::new(conclusion.all),
-            workspace: Room::new(bundle.workspace()),
-            places,
-            conclusion,
-        }
+        Self { bundle, sizes, arena, workspace: Room::new(bundle.workspace()), places, has_moved: false }
     }
 
     /// Takes over where a trajectory is: its state, and the slope there.
@@ -153,7 +145,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
 
     /// Whether nothing happened in a lane's step that its trajectory would have to look at.
     pub(super) fn is_quiet(&self, lane: usize) -> bool {
-        self.answer.all()[self.conclusion.is_quiet][lane] == 1.0
+        self.arena.all()[self.places.conclusion.is_quiet][lane] == 1.0
     }
 
     /// Whether nothing has to be moved at the end of a lane's step, as far as kept rows and speeds tell.
@@ -168,7 +160,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
 
     /// How regular they are at the end of its step.
     pub(super) fn nearness_at_end(&self, lane: usize) -> f64 {
-        self.answer.all()[self.conclusion.nearness][lane]
+        self.arena.all()[self.places.conclusion.nearness][lane]
     }
 
     /// Whether a row of its Jacobian there is longer than ever.
@@ -184,6 +176,7 @@ impl<'a, const N: usize> Lanes<'a, N> {
     /// The end of a lane's step is another one.
     pub(super) fn put_end(&mut self, lane: usize, next: &[f64]) {
         self.arena.put(lane, self.places.next.start, next);
+        self.has_moved = true;
     }
 
     /// The end of a lane's step before quaternions got their unit length.
@@ -195,34 +188,34 @@ impl<'a, const N: usize> Lanes<'a, N> {
     /// Slopes of a lane at both ends of its step.
     pub(super) fn slopes(&self, lane: usize, [begin, end]: [&mut [f64]; 2]) {
         self.arena.get(lane, self.places.slope.start, begin);
-        self.answer.get(lane, self.conclusion.slope.start, end);
+        self.arena.get(lane, self.places.conclusion.slope.start, end);
     }
 
     /// Kinetic and potential energy of a lane at the end of its step [J].
     pub(super) fn energy(&self, lane: usize) -> (f64, f64) {
-        let energy = &self.answer.all()[self.conclusion.energy.clone()];
+        let energy = &self.arena.all()[self.places.conclusion.energy.clone()];
         (energy[0][lane], energy[1][lane])
     }
 
     /// A contact of a lane at the end of its step, by what it was at another instant.
     pub(super) fn contact(&self, lane: usize, joint: usize, before: &ContactState) -> ContactState {
-        let Conclusion { slope, contacts, .. } = &self.conclusion;
-        self.contact_in(self.answer.all(), (slope, contacts), (lane, joint), before)
+        let Conclusion { slope, contacts, .. } = &self.places.conclusion;
+        self.contact_in((slope, contacts), (lane, joint), before)
     }
 
     /// The same at the beginning of its step.
     pub(super) fn contact_before(&self, lane: usize, joint: usize, before: &ContactState) -> ContactState {
         let Places { slope, touches, .. } = &self.places;
-        self.contact_in(self.arena.all(), (slope, touches), (lane, joint), before)
+        self.contact_in((slope, touches), (lane, joint), before)
     }
 
     fn contact_in(
         &self,
-        numbers: &[[f64; N]],
         (slope, contacts): (&Range<usize>, &Range<usize>),
         (lane, joint): (usize, usize),
         before: &ContactState,
     ) -> ContactState {
+        let numbers = self.arena.all();
         let totals = slope.start + Conclusion::totals(&self.sizes, joint);
         let contact = contacts.start + CONTACT_ANSWER * joint;
         let rates = std::array::from_fn(|at| numbers[totals + at][lane]);
@@ -231,51 +224,54 @@ impl<'a, const N: usize> Lanes<'a, N> {
 
     /// The largest pivots of a lane, if they have grown in its step.
     pub(super) fn grown_pivots(&self, lane: usize) -> Option<Vec<f64>> {
-        let answer = self.answer.all();
-        let pivots = &answer[self.conclusion.pivots.clone()];
-        (answer[self.conclusion.has_grown][lane] == 1.0).then(|| pivots.iter().map(|all| all[lane]).collect())
+        let (all, at) = (self.arena.all(), &self.places.conclusion);
+        let pivots = &all[at.pivots.clone()];
+        (all[at.has_grown][lane] == 1.0).then(|| pivots.iter().map(|all| all[lane]).collect())
     }
 
     /// The error of a lane's step, 1 just accepted, and by how much the next one may be longer.
     pub(super) fn error(&self, lane: usize) -> (f64, f64) {
-        let answer = self.answer.all();
-        (answer[self.conclusion.error][lane], answer[self.conclusion.growth][lane])
+        let (all, at) = (self.arena.all(), &self.places.conclusion);
+        (all[at.error][lane], all[at.growth][lane])
     }
 
-    /// The ends of the steps before they are put onto the constraints.
-    pub(super) fn attempt(&mut self, steps: &mut Steps<N>) {
+    /// Tries steps, as if none of their ends had to be put onto the constraints.
+    pub(super) fn step(&mut self, steps: &mut Steps<N>) {
         let Self { places, arena, .. } = self;
         let all = arena.all_mut();
         (all[places.begin], all[places.length], all[places.end]) = (steps.begins, steps.lengths, steps.ends);
         let (question, answer) = all.split_at_mut(places.question());
-        self.bundle.attempt(question, answer, self.workspace.all_mut());
+        self.bundle.step(question, answer, self.workspace.all_mut());
         judge(steps, &arena.all()[places.least_nearness]);
     }
 
-    /// What is at the ends of the steps, and their errors.
+    /// What is at the ends of the steps, and their errors: those that have been put elsewhere are looked at once more.
     pub(super) fn conclude(&mut self, steps: &mut Steps<N>) {
-        let Self { places, conclusion, arena, answer, .. } = self;
-        self.bundle.conclude(arena.all(), answer.all_mut(), self.workspace.all_mut());
-        judge(steps, &answer.all()[conclusion.nearness]);
-        arena.all_mut()[places.pivots.clone()].copy_from_slice(&answer.all()[conclusion.pivots.clone()]);
+        let Self { places: Places { pivots, conclusion, .. }, arena, .. } = self;
+        if std::mem::take(&mut self.has_moved) {
+            let (question, answer) = arena.all_mut().split_at_mut(conclusion.start());
+            self.bundle.conclude(question, answer, self.workspace.all_mut());
+        }
+        judge(steps, &arena.all()[conclusion.nearness]);
+        arena.all_mut().copy_within(conclusion.pivots.clone(), pivots.start);
     }
 
     /// The steps of these lanes count: the next ones begin at their ends.
     pub(super) fn accept(&mut self, accepted: &[bool; N]) {
-        let Self { places, conclusion, arena, answer, .. } = self;
-        let (question, found) = arena.all_mut().split_at_mut(places.question());
-        choose(&mut question[places.y.clone()], &found[..places.y.len()], accepted);
+        let Self { places, arena, .. } = self;
+        let places = &*places;
+        let Places { y, slope, touches, ledger, energy_scale, conclusion, .. } = places;
+        let first = places.question();
+        let (question, found) = arena.all_mut().split_at_mut(first);
         let answers = [
-            (&places.slope, &conclusion.slope),
-            (&places.touches, &conclusion.contacts),
-            (&places.ledger, &conclusion.ledger),
-            (
-                &(places.energy_scale..places.energy_scale + 1),
-                &(conclusion.energy_scale..conclusion.energy_scale + 1),
-            ),
+            (y.start, &places.next),
+            (slope.start, &conclusion.slope),
+            (touches.start, &conclusion.contacts),
+            (ledger.start, &conclusion.ledger),
+            (*energy_scale, &(conclusion.energy_scale..conclusion.energy_scale + 1)),
         ];
         for (place, at) in answers {
-            choose(&mut question[place.clone()], &answer.all()[at.clone()], accepted);
+            choose(&mut question[place..][..at.len()], &found[at.start - first..][..at.len()], accepted);
         }
     }
 }

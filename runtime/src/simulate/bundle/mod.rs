@@ -101,7 +101,7 @@ fn step<'a, const N: usize>(
         }
     }
     let asked = steps.ordinary;
-    lanes.attempt(&mut steps);
+    lanes.step(&mut steps);
     for lane in (0..N).filter(|lane| asked[*lane]) {
         let (is_regular, end, runner) = (steps.ordinary[lane], steps.ends[lane], &mut runners[lane]);
         steps.ordinary[lane] = is_regular && trajectories[lane].project(runner, (lanes, lane), end);

@@ -12,6 +12,9 @@ use crate::error::RunError;
 use crate::simulate::turns::{TurnMeasures, TurnRunner};
 use crate::watch::Watch;
 
+/// Steps after which the watch is asked: some tenths of a millisecond.
+const ASKS_EVERY: u32 = 64;
+
 /// The one lane, and what runs in it.
 pub struct WholeSteps<'a> {
     lanes: Lanes<'a, 1>,
@@ -40,11 +43,14 @@ impl<'a> WholeSteps<'a> {
             return runner.measure(watch);
         }
         let mut outcome = None;
+        let mut steps = 0_u32;
         while outcome.is_none() {
             let Self { lanes, trajectory } = self;
             let (trajectories, runners) = (slice::from_mut(trajectory), slice::from_mut(runner));
             step(lanes, trajectories, runners, &mut |_, ended| outcome = Some(ended));
-            if outcome.is_none() && self.trajectory.report(watch).is_break() {
+            let is_asked = steps.is_multiple_of(ASKS_EVERY) && outcome.is_none();
+            steps = steps.wrapping_add(1);
+            if is_asked && self.trajectory.report(watch).is_break() {
                 self.trajectory.cancel(runner);
                 runner.restore(&kept)?;
                 return Err(RunError::Interrupted { t: kept.t });
