@@ -4,6 +4,8 @@
 //! Plain integrals, which no slope depends on, follow from the others. So does a component whose slope is another component, as a
 //! coordinate follows from its speed: the matrix that is factored has the rest alone.
 
+use core::ops::Range;
+
 use super::adaptive::Step;
 use super::problem::Problem;
 use crate::error::RunError;
@@ -30,15 +32,15 @@ pub(super) struct StageSystem {
     states: Vec<f64>,
     slopes: Vec<f64>,
     followers: Vec<Follower>,
-    /// The components that the matrix is of.
+    /// The components that the matrix is of: one by one, and in runs of neighbours.
     rest: Vec<usize>,
+    runs: Vec<Range<usize>>,
     dimension: usize,
     /// `gamma h`.
     scale: f64,
     /// Derivatives of the rest's slopes by every follower, and of the integrals' slopes by every component.
     by_followers: Vec<f64>,
     of_integrals: Vec<f64>,
-    matrix: Vec<f64>,
     lu: Option<Lu>,
     right: Vec<f64>,
 }
@@ -90,7 +92,7 @@ impl StageSystem {
         self.by_followers.clear();
         for follower in &self.followers {
             let column = &self.slopes[follower.component * all..][..all];
-            self.by_followers.extend(self.rest.iter().map(|row| column[*row]));
+            self.runs.iter().for_each(|run| self.by_followers.extend_from_slice(&column[run.clone()]));
         }
         self.known_at = Some(step.t);
         Ok(())
@@ -102,6 +104,8 @@ impl StageSystem {
         let followed = |component| problem.follows(component).filter(|of| problem.follows(*of).is_none());
         let followed: Vec<Option<usize>> = (0..deciding).map(followed).collect();
         self.rest = (0..deciding).filter(|component| followed[*component].is_none()).collect();
+        self.runs =
+            self.rest.chunk_by(|a, b| a + 1 == *b).map(|run| run[0]..run[run.len() - 1] + 1).collect();
         let place = |of: usize| self.rest.iter().position(|component| *component == of);
         let followers = followed
             .iter()
@@ -113,7 +117,6 @@ impl StageSystem {
         self.times = vec![0.0; deciding + 1];
         self.states = vec![0.0; (deciding + 1) * dimension];
         self.slopes = self.states.clone();
-        self.matrix = vec![0.0; size * size];
         self.right = vec![0.0; size];
         self.lu = Some(Lu::new(size));
     }
@@ -122,23 +125,21 @@ impl StageSystem {
     pub(super) fn factor(&mut self, scale: f64) {
         let (all, size) = (self.dimension, self.rest.len());
         self.scale = scale;
-        let column = |component: usize| &self.slopes[component * all..][..all];
-        for (j, component) in self.rest.iter().enumerate() {
-            let column = column(*component);
-            for (i, row) in self.rest.iter().enumerate() {
-                self.matrix[i * size + j] = -column[*row];
+        let per_scale = 1.0 / scale;
+        let Some(lu) = &mut self.lu else { return };
+        lu.factor_columns(|j, column| {
+            let slopes = &self.slopes[self.rest[j] * all..][..all];
+            of_runs(&self.runs, column, slopes, |place, slope| *place = -slope);
+            column[j] += per_scale;
+            let mut by_followers = &self.by_followers[..];
+            for follower in &self.followers {
+                let (slopes, others) = by_followers.split_at(size);
+                by_followers = others;
+                if follower.of == j {
+                    add_scaled(column, -scale, slopes);
+                }
             }
-            self.matrix[j * size + j] += 1.0 / scale;
-        }
-        if size > 0 {
-            for (follower, column) in self.followers.iter().zip(self.by_followers.chunks_exact(size)) {
-                let places = self.matrix[follower.of..].iter_mut().step_by(size);
-                places.zip(column).for_each(|(place, value)| *place -= scale * value);
-            }
-        }
-        if let Some(lu) = &mut self.lu {
-            lu.factor(&self.matrix);
-        }
+        });
     }
 
     /// Derivative of the slopes by time.
@@ -149,9 +150,7 @@ impl StageSystem {
     /// Solves for the right-hand side `b`.
     pub(super) fn solve(&mut self, b: &[f64], solution: &mut [f64]) {
         let (size, deciding) = (self.rest.len(), self.times.len() - 1);
-        for (right, row) in self.right.iter_mut().zip(&self.rest) {
-            *right = b[*row];
-        }
+        of_runs(&self.runs, &mut self.right, b, |right, b| *right = b);
         if size > 0 {
             for (follower, column) in self.followers.iter().zip(self.by_followers.chunks_exact(size)) {
                 add_scaled(&mut self.right, self.scale * b[follower.component], column);
@@ -160,8 +159,11 @@ impl StageSystem {
         if let Some(lu) = &mut self.lu {
             lu.solve(&mut self.right);
         }
-        for (row, value) in self.rest.iter().zip(&self.right) {
-            solution[*row] = *value;
+        let mut solved = &self.right[..];
+        for run in &self.runs {
+            let (run_solved, others) = solved.split_at(run.len());
+            solution[run.clone()].copy_from_slice(run_solved);
+            solved = others;
         }
         for Follower { component, of } in &self.followers {
             solution[*component] = self.scale * (b[*component] + self.right[*of]);
@@ -171,5 +173,15 @@ impl StageSystem {
         for ((integral, row), b) in integrals.iter_mut().zip(rows).zip(&b[deciding..]) {
             *integral = self.scale * (b + dot(row, state));
         }
+    }
+}
+
+/// What is done with every number and with that of all components which belongs to it: those of runs, one behind the other.
+#[inline(always)]
+fn of_runs(runs: &[Range<usize>], mut numbers: &mut [f64], all: &[f64], write: impl Fn(&mut f64, f64)) {
+    for run in runs {
+        let (of_run, others) = numbers.split_at_mut(run.len());
+        of_run.iter_mut().zip(&all[run.clone()]).for_each(|(number, value)| write(number, *value));
+        numbers = others;
     }
 }

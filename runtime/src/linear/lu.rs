@@ -1,7 +1,7 @@
 //! LU with partial pivoting of a square matrix: Newton systems of implicit integrators.
 //! In: a row-major matrix. Out: solutions, and whether the matrix is singular to working precision.
 
-use super::vector::add_scaled;
+use core::cmp::Ordering;
 
 /// Rows that are solved for at once: matrices are filled up with zeros to a multiple.
 type Lanes = [f64; 4];
@@ -11,7 +11,9 @@ type Lanes = [f64; 4];
 pub struct Lu {
     size: usize,
     /// Column by column: eliminating then adds multiples of whole columns.
-    factors: Vec<f64>,
+    factors: Vec<Lanes>,
+    /// What the rows below a pivot are of its row, zero at the others.
+    multiples: Vec<Lanes>,
     /// The same below the diagonal alone, and above it, zero elsewhere: four rows by four, column by column.
     lower: Vec<Lanes>,
     upper: Vec<Lanes>,
@@ -27,7 +29,8 @@ impl Lu {
         let triangle = vec![[0.0; 4]; 4 * blocks * blocks];
         Self {
             size,
-            factors: vec![0.0; size * size],
+            factors: vec![[0.0; 4]; size * blocks],
+            multiples: vec![[0.0; 4]; blocks],
             lower: triangle.clone(),
             upper: triangle,
             reciprocal_pivots: vec![0.0; 4 * blocks],
@@ -39,24 +42,32 @@ impl Lu {
     /// Factors a row-major matrix. Returns the smallest pivot over the largest (0 or NaN: singular).
     pub fn factor(&mut self, matrix: &[f64]) -> f64 {
         let n = self.size;
+        self.factor_columns(|k, column| {
+            let rows = matrix.chunks_exact(n);
+            column.iter_mut().zip(rows).for_each(|(place, row)| *place = row[k]);
+        })
+    }
+
+    /// Factors a matrix whose columns are written one by one, each with its number. Returns as [`Self::factor`].
+    pub fn factor_columns(&mut self, mut write: impl FnMut(usize, &mut [f64])) -> f64 {
+        let (n, blocks) = (self.size, self.work.len());
         if n == 0 {
             return 1.0;
         }
-        for (i, row) in matrix.chunks_exact(n).enumerate() {
-            self.order[i] = i;
-            for (place, value) in self.factors[i..].iter_mut().step_by(n).zip(row) {
-                *place = *value;
-            }
+        for (k, column) in self.factors.chunks_exact_mut(blocks).enumerate() {
+            write(k, &mut column.as_flattened_mut()[..n]);
         }
+        (0..).zip(&mut self.order).for_each(|(row, place)| *place = row);
         let (mut smallest, mut most) = (f64::INFINITY, 0.0_f64);
         for k in 0..n {
-            let (before, after) = self.factors.split_at_mut((k + 1) * n);
-            let (before, column) = before.split_at_mut(k * n);
-            let mut best = k;
-            for i in k + 1..n {
-                if column[i].abs() > column[best].abs() {
-                    best = i;
-                }
+            let (before, after) = self.factors.split_at_mut((k + 1) * blocks);
+            let (before, column) = before.split_at_mut(k * blocks);
+            let column = column.as_flattened_mut();
+            let (mut best, mut largest) = (k, column[k].abs());
+            for (i, value) in (k + 1..n).zip(&column[k + 1..]) {
+                let is_larger = value.abs() > largest;
+                best = if is_larger { i } else { best };
+                largest = if is_larger { value.abs() } else { largest };
             }
             let pivot = column[best];
             if pivot == 0.0 || pivot.is_nan() {
@@ -66,15 +77,24 @@ impl Lu {
             most = most.max(pivot.abs());
             let reciprocal = 1.0 / pivot;
             self.reciprocal_pivots[k] = reciprocal;
-            self.order.swap(best, k);
-            before.chunks_exact_mut(n).for_each(|column| column.swap(best, k));
-            column.swap(best, k);
+            if best != k {
+                self.order.swap(best, k);
+                column.swap(best, k);
+                let others = before.chunks_exact_mut(blocks).chain(after.chunks_exact_mut(blocks));
+                others.for_each(|other| other.as_flattened_mut().swap(best, k));
+            }
             column[k + 1..].iter_mut().for_each(|factor| *factor *= reciprocal);
-            for later in after.chunks_exact_mut(n) {
-                later.swap(best, k);
-                let value = later[k];
+            let multiples = self.multiples.as_flattened_mut();
+            multiples[..=k].fill(0.0);
+            multiples[k + 1..].copy_from_slice(&column[k + 1..]);
+            // Whole blocks, from that of the next row on.
+            let first = (k + 1) / 4;
+            for later in after.chunks_exact_mut(blocks) {
+                let value = later[k / 4][k % 4];
                 if value != 0.0 {
-                    add_scaled(&mut later[k + 1..], -value, &column[k + 1..]);
+                    for (values, multiples) in later[first..].iter_mut().zip(&self.multiples[first..]) {
+                        *values = without(*values, multiples, value);
+                    }
                 }
             }
         }
@@ -83,12 +103,21 @@ impl Lu {
     }
 
     fn split(&mut self) {
-        let width = 4 * self.work.len();
-        for (k, column) in self.factors.chunks_exact(self.size).enumerate() {
-            for (i, value) in column.iter().enumerate() {
-                let place = i / 4 * width + k;
-                self.lower[place][i % 4] = if i > k { *value } else { 0.0 };
-                self.upper[place][i % 4] = if i < k { *value } else { 0.0 };
+        let blocks = self.work.len();
+        let width = 4 * blocks;
+        for (k, column) in self.factors.chunks_exact(blocks).enumerate() {
+            let diagonal = k / 4;
+            for (block, values) in column.iter().enumerate() {
+                let place = block * width + k;
+                let (lower, upper) = (&mut self.lower[place], &mut self.upper[place]);
+                match block.cmp(&diagonal) {
+                    Ordering::Less => *upper = *values,
+                    Ordering::Greater => *lower = *values,
+                    Ordering::Equal => {
+                        *lower = core::array::from_fn(|i| if i > k % 4 { values[i] } else { 0.0 });
+                        *upper = core::array::from_fn(|i| if i < k % 4 { values[i] } else { 0.0 });
+                    }
+                }
             }
         }
     }
