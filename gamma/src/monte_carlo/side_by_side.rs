@@ -37,10 +37,11 @@ impl<'a> SideBySide<'a> {
 
     /// Lives these trajectories; `ended` hears of each, in the order in which they end. Nothing as its end: the life is one that
     /// has to go cycle by cycle, because it does not fail or a draw is no number.
+    // Not generic: what is, is compiled by the crate that calls it, which need not be optimised.
     pub(super) fn live(
         &mut self,
-        mut trajectories: impl Iterator<Item = u64>,
-        mut ended: impl FnMut(u64, Option<FailureEvent>),
+        trajectories: &mut dyn Iterator<Item = u64>,
+        ended: &mut dyn FnMut(u64, Option<FailureEvent>),
     ) {
         (0..LANES).for_each(|lane| self.begin(lane, trajectories.next()));
         while self.is_busy.contains(&true) {

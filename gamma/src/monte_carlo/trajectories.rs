@@ -169,10 +169,13 @@ impl MonteCarlo<'_> {
                         let first = numbers.min().unwrap_or(self.trajectories.start);
                         return stopped(first, Ended::Cancelled);
                     }
-                    lanes.live(numbers.inspect(|number| at.set(*number)), |number, end| match end {
-                        Some(end) => ends.push((number, end)),
-                        None => others.push(number),
-                    });
+                    lanes.live(
+                        &mut numbers.inspect(|number| at.set(*number)),
+                        &mut |number, end| match end {
+                            Some(end) => ends.push((number, end)),
+                            None => others.push(number),
+                        },
+                    );
                     failed(&ends);
                     others.iter().for_each(|trajectory| one(&mut fine, *trajectory));
                     ends.clear();
@@ -202,7 +205,7 @@ impl MonteCarlo<'_> {
             wanted - 1 - spawned
         });
         let mut failures = failures.into_inner().unwrap_or_else(PoisonError::into_inner);
-        failures.sort_unstable_by_key(|(trajectory, _)| *trajectory);
+        by_number(&mut failures);
         let ended = first(stops.into_inner().unwrap_or_else(PoisonError::into_inner));
         Lives { failures, ended, missing_threads }
     }
@@ -238,6 +241,11 @@ impl MonteCarlo<'_> {
             Err(stop) => Err(stopped(stop)),
         }
     }
+}
+
+/// Sorts lives by their numbers.
+fn by_number(lives: &mut [(u64, FailureEvent)]) {
+    lives.sort_unstable_by_key(|(trajectory, _)| *trajectory);
 }
 
 /// The first that stopped for a reason of its own says why.
