@@ -63,6 +63,12 @@ impl<const N: usize> Function<N> {
         its_tangents[first..][..tangents.len()].copy_from_slice(tangents);
     }
 
+    /// Inputs from a place on: values and tangents.
+    pub(super) fn told(&self, first: usize) -> (&[[f64; N]], &[[f64; N]]) {
+        let (inputs, its_tangents) = self.input.split_at(self.input.len() / 2);
+        (&inputs[first..], &its_tangents[first..])
+    }
+
     /// Runs it. Out: values and tangents.
     pub(super) fn run(&mut self) -> (&[[f64; N]], &[[f64; N]]) {
         let Self { code, input, output, workspace } = self;

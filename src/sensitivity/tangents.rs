@@ -33,3 +33,35 @@ impl<const N: usize> Varied<N> {
         Self { value: time.value * self.value, tangents }
     }
 }
+
+/// Numbers with tangents as functions take and give them: values, each the same in all lanes, then tangents. Copied in one go.
+#[derive(Clone, Debug)]
+pub(super) struct Many<const N: usize> {
+    pub values: Vec<[f64; N]>,
+    pub tangents: Vec<[f64; N]>,
+}
+
+impl<const N: usize> Many<N> {
+    pub(super) fn of(all: &[Varied<N>]) -> Self {
+        let values = all.iter().map(|one| [one.value; N]).collect();
+        Self { values, tangents: all.iter().map(|one| one.tangents).collect() }
+    }
+
+    /// The same one by one.
+    pub(super) fn write_to(&self, all: &mut [Varied<N>]) {
+        for ((one, value), tangents) in all.iter_mut().zip(&self.values).zip(&self.tangents) {
+            *one = Varied::answered(value, tangents);
+        }
+    }
+
+    /// Takes over the first of what a function answers.
+    pub(super) fn take(&mut self, (values, tangents): (&[[f64; N]], &[[f64; N]])) {
+        let count = self.values.len();
+        self.values.copy_from_slice(&values[..count]);
+        self.tangents.copy_from_slice(&tangents[..count]);
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        self.values.iter().all(|value| value[0].is_finite())
+    }
+}

@@ -11,7 +11,7 @@ use linkwear_runtime::{Dual, Layout, Scalar, Sizes};
 use super::function::Function;
 use super::roots::SMOOTH;
 use super::stages::{DONE, Places, stages};
-use super::tangents::Varied;
+use super::tangents::{Many, Varied};
 use super::varied::{ANSWER, MEMORY};
 use super::worn::{Part, Step, Wear};
 
@@ -128,18 +128,19 @@ impl<const N: usize> Turns<N> {
         let mut wear = Wear::new(self.sizes.contacts);
         let (begin, mut losses) = (state.t / self.period.value, 0);
         self.remember(&state.contacts);
-        let mut kept = state.clone();
+        let (mut flat, contacts) = (Many::of(&state.flat), &mut state.contacts);
+        let mut kept = contacts.clone();
         for step in 0..steps {
-            kept.flat.copy_from_slice(&state.flat);
-            kept.contacts.copy_from_slice(&state.contacts);
+            kept.copy_from_slice(contacts);
             let at = begin + step as f64 * whole.of_turn;
-            let mut did = self.step(at, whole, state);
+            let mut did = self.step(at, whole, (&mut flat, contacts));
             if did.is_rough {
-                state.flat.copy_from_slice(&kept.flat);
-                state.contacts.copy_from_slice(&kept.contacts);
-                self.remember(&state.contacts);
+                // The motion was told where the step began.
+                flat.take(self.motion.told(self.sizes.parameters + 1));
+                contacts.copy_from_slice(&kept);
+                self.remember(contacts);
                 for part in 0..SHORTER {
-                    did = self.step(at + part as f64 * fine.of_turn, fine, state);
+                    did = self.step(at + part as f64 * fine.of_turn, fine, (&mut flat, contacts));
                     losses += did.losses;
                     wear.add(&did, fine);
                 }
@@ -147,14 +148,15 @@ impl<const N: usize> Turns<N> {
                 losses += did.losses;
                 wear.add(&did, whole);
             }
-            if !state.flat.iter().all(|one| one.value.is_finite()) {
+            if !flat.is_finite() {
                 return Err(TooLong);
             }
         }
+        flat.write_to(&mut state.flat);
         let end = self.time(begin + 1.0);
         self.close(end, &mut state.flat)?;
         state.t += self.period.value;
-        let last = self.step_rates(end, &state.flat);
+        let last = self.step_rates(end, &Many::of(&state.flat));
         let step = self.period.times(whole.of_turn);
         Ok(Turned { wear: wear.finish(&last, &step), losses })
     }
@@ -165,30 +167,29 @@ impl<const N: usize> Turns<N> {
     }
 
     /// Rates of the depths at a state.
-    fn step_rates(&mut self, t: Varied<N>, state: &[Varied<N>]) -> Vec<Varied<N>> {
-        self.begin(t, state).chunks_exact(ANSWER).map(|rates| rates[1]).collect()
+    fn step_rates(&mut self, t: Varied<N>, flat: &Many<N>) -> Vec<Varied<N>> {
+        self.begin(t, flat).chunks_exact(ANSWER).map(|rates| rates[1]).collect()
     }
 
     /// A step from so many turns on.
-    fn step(&mut self, at: f64, part: Part, state: &mut State<N>) -> Step<N> {
+    fn step(&mut self, at: f64, part: Part, (flat, contacts): (&mut Many<N>, &mut [Touch<N>])) -> Step<N> {
         let length = self.period.times(part.of_turn);
-        let mut begin = self.begin(self.time(at), &state.flat);
-        let (changed, losses) = touched(&mut state.contacts, &begin);
+        let mut begin = self.begin(self.time(at), flat);
+        let (changed, losses) = touched(contacts, &begin);
         if changed {
-            self.remember(&state.contacts);
-            begin = self.begin(self.time(at), &state.flat);
+            self.remember(contacts);
+            begin = self.begin(self.time(at), flat);
         }
         let (middle, end) = (self.time(at + 0.5 * part.of_turn), self.time(at + part.of_turn));
         let Self { stages, at: places, .. } = self;
-        put_state(stages, self.sizes.parameters, (middle, &state.flat));
+        stages.put_varied(self.sizes.parameters, &middle);
+        stages.put_many(self.sizes.parameters + 1, (&flat.values, &flat.tangents));
         stages.put_varied(places.end, &end);
         stages.put_varied(places.length, &length);
         let (values, tangents) = stages.run();
         let found = |place: usize| Varied::answered(&values[place], &tangents[place]);
-        let rates = state.flat.len();
-        for (place, one) in state.flat.iter_mut().enumerate() {
-            *one = found(place);
-        }
+        flat.take((values, tangents));
+        let rates = flat.values.len();
         let mut step =
             Step { begin: Vec::new(), middle: Vec::new(), integrals: Vec::new(), losses, is_rough: false };
         for (joint, begin) in begin.chunks_exact(ANSWER).enumerate() {
@@ -205,11 +206,12 @@ impl<const N: usize> Turns<N> {
     }
 
     /// Where a step begins: tells its stages the slope there. Out: what contacts are like.
-    fn begin(&mut self, t: Varied<N>, state: &[Varied<N>]) -> Vec<Varied<N>> {
-        put_state(&mut self.motion, self.sizes.parameters, (t, state));
+    fn begin(&mut self, t: Varied<N>, flat: &Many<N>) -> Vec<Varied<N>> {
+        self.motion.put_varied(self.sizes.parameters, &t);
+        self.motion.put_many(self.sizes.parameters + 1, (&flat.values, &flat.tangents));
         let (values, tangents) = self.motion.run();
         self.stages.put_many(self.at.slope, (values, tangents));
-        let answers = values.iter().zip(tangents).skip(state.len());
+        let answers = values.iter().zip(tangents).skip(flat.values.len());
         answers.map(|(value, tangents)| Varied::answered(value, tangents)).collect()
     }
 
