@@ -1,23 +1,6 @@
-//! Compiles the shipped mechanisms, as a user's build script does, and hands on the library inside units of FMI. Each has a feature;
-//! without both there is nothing to do.
+//! Hands on the library inside units of FMI, if its feature is on. That is the crate `fmu`, which cargo
+//! has compiled to run this script.
 
-#[cfg(feature = "shipped")]
-mod shipped {
-    macro_rules! mechanisms {
-        ($($(#[$doc:meta])* $name:ident),* $(,)?) => {
-            const NAMES: &[&str] = &[$(stringify!($name)),*];
-        };
-    }
-
-    include!("mechanisms/shipped.rs");
-
-    pub fn compile() {
-        let files = NAMES.iter().map(|name| format!("mechanisms/{name}.toml"));
-        files.fold(linkwear_codegen::Builder::new(), |builder, file| builder.mechanism(file)).write_or_exit();
-    }
-}
-
-/// The crate `fmu` as a library of its own, which cargo has compiled to run this script.
 #[cfg(feature = "fmu")]
 mod unit {
     use std::env;
@@ -61,8 +44,6 @@ mod unit {
 }
 
 fn main() {
-    #[cfg(feature = "shipped")]
-    shipped::compile();
     #[cfg(feature = "fmu")]
     unit::hand_on();
 }

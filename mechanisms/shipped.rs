@@ -1,4 +1,4 @@
-// Mechanisms that are compiled into linkwear: read by build.rs and by src/mechanisms.rs.
+// Mechanisms that are compiled into linkwear, one a line: read by shipped/build.rs and by shipped/src/lib.rs.
 mechanisms! {
     /// A bar that swings about one revolute joint.
     pendulum,

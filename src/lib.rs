@@ -34,7 +34,6 @@ pub mod inputs;
 pub mod journal;
 pub mod life;
 pub mod mechanism;
-pub mod mechanisms;
 pub mod number;
 #[cfg(feature = "page")]
 mod page;
@@ -51,3 +50,4 @@ pub mod wear_measure;
 pub use linkwear_codegen as codegen;
 pub use linkwear_native as native;
 pub use linkwear_runtime as runtime;
+pub use linkwear_shipped as mechanisms;

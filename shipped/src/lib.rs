@@ -1,6 +1,8 @@
-//! The shipped mechanisms, compiled in by this package's build script.
+//! The shipped mechanisms, compiled by this package's build script if its feature `compile` is on.
 //! Out: one module each, and [`SHIPPED`] to find them by the bytes of their file.
 //! Never knows the generator: what is here is what any crate gets from its own build script.
+//!
+//! A package of its own: generated code computes, and is optimised; the program around it asks and prints, and is compiled fast.
 
 use linkwear_runtime::{Description, System};
 
@@ -29,7 +31,7 @@ macro_rules! mechanisms {
         )*
 
         /// Every mechanism of the list, in its order.
-        pub static SHIPPED: &[$crate::mechanisms::Shipped] = &[$($crate::mechanisms::Shipped {
+        pub static SHIPPED: &[$crate::Shipped] = &[$($crate::Shipped {
             name: stringify!($name),
             source_sha256: $name::SOURCE_SHA256,
             description: $name::description,
@@ -38,7 +40,7 @@ macro_rules! mechanisms {
     };
 }
 
-#[cfg(feature = "shipped")]
-include!("../mechanisms/shipped.rs");
-#[cfg(not(feature = "shipped"))]
+#[cfg(feature = "compile")]
+include!(concat!(env!("OUT_DIR"), "/shipped.rs"));
+#[cfg(not(feature = "compile"))]
 mechanisms! {}
