@@ -139,6 +139,7 @@ pub fn view_page(arguments: &ViewArguments, source: &SourceFile, ear: Ear<'_>) -
 
 pub fn draw(arguments: &DrawArguments) -> Result<Answer, Failure> {
     let DrawArguments { input, out, replace, .. } = arguments;
+    picture::check_ending(out)?;
     to_file(&input.file, (out, *replace), |ear| {
         let svg = drawn(arguments, &read_source(&input.file)?, ear)?;
         Ok((picture::drawn(out, svg)?, ""))
@@ -171,9 +172,9 @@ fn see(
     if ear.remarks {
         print_remarks(&mechanism);
     }
-    let asked = Simulation::new(&input.file, motion, &mechanism)?;
+    let mut asked = Simulation::new(&input.file, motion, &mechanism)?;
     let begin = Instant::now();
-    let run = asked.run(ear.watch)?;
+    let run = asked.shown(motion, ear.watch)?;
     if let Some(error) = &run.stopped {
         return Err(Failure::run(&input.file, error, None));
     }

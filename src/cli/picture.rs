@@ -17,6 +17,18 @@ pub fn may_write(input: &Path, out: &Path, replace: Replace) -> Result<(), Failu
     check_output(input, Some(out), replace).map(drop)
 }
 
+/// Refuses the name of a picture that ends like one of another format; without an ending it is an SVG.
+pub fn check_ending(out: &Path) -> Result<(), Failure> {
+    let ending = out.extension().map(|end| end.to_string_lossy().to_ascii_lowercase());
+    match ending.as_deref() {
+        None | Some("svg" | "png") => Ok(()),
+        Some(other) => Err(Failure::usage(
+            format!("pictures are written as SVG or PNG, not as `.{other}`"),
+            "give a name that ends in .svg or .png",
+        )),
+    }
+}
+
 /// Whether a file is to be a PNG.
 fn is_png(file: &Path) -> bool {
     file.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"))
@@ -37,7 +49,10 @@ pub fn drawn(file: &Path, svg: String) -> Result<Vec<u8>, Failure> {
 
 /// Refuses, before the work, a place where no charts may be written.
 pub fn check_plot(input: &Path, plot: Option<&Path>, replace: Replace) -> Result<(), Failure> {
-    plot.map_or(Ok(()), |plot| may_write(input, plot, replace))
+    plot.map_or(Ok(()), |plot| {
+        check_ending(plot)?;
+        may_write(input, plot, replace)
+    })
 }
 
 /// Writes charts where they are asked for.

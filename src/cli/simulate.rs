@@ -15,7 +15,7 @@ use crate::table::{is_stdout, write_table};
 use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{
-    Description, Integrator, Run, SampledSignals, Settings, Span, Statistics, Watch, simulate,
+    Description, Integrator, Run, RunError, SampledSignals, Settings, Span, Statistics, Watch, simulate,
     simulate_with_inputs,
 };
 use serde_json::{Value, json};
@@ -25,7 +25,7 @@ use super::answer::simulate::{PeakAnswer, SimulateAnswer, TurnAnswer};
 use super::arguments::SimulateArguments;
 use super::failure::{Failure, warnings};
 use super::input::{check_output, check_replaced, load_mechanism};
-use super::options::{IntegratorName, MotionArguments};
+use super::options::{IntegratorName, LengthArguments, MotionArguments};
 #[cfg(feature = "page")]
 use super::picture;
 use super::summary;
@@ -33,6 +33,8 @@ use super::table::{count, duration, plural, table};
 
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;
+/// How long runs are of what has no turns, unless it is given [s].
+const UNDRIVEN: f64 = 1.0;
 /// Spectral radius of generalized-alpha at infinite frequency: damps what the step cannot resolve.
 const DEFAULT_RHO: f64 = 0.8;
 
@@ -120,15 +122,31 @@ impl<'a> Simulation<'a> {
 
     /// The run, perhaps stopped on its way.
     pub fn run(&self, watch: Watch<'_>) -> Result<Run, Failure> {
+        self.simulated(watch).map_err(|error| Failure::run(self.file, &error, None))
+    }
+
+    /// The run of a picture: of [`UNDRIVEN`] seconds where a driver never gets round and nobody said how long.
+    pub fn shown(&mut self, arguments: &MotionArguments, watch: Watch<'_>) -> Result<Run, Failure> {
+        let LengthArguments { turns, time } = arguments.length;
+        match self.simulated(watch) {
+            Err(RunError::TurnsNotReached { .. }) if turns.is_none() && time.is_none() => {
+                eprintln!("warning: the driver does not get round; what is shown are {UNDRIVEN} s");
+                self.settings.span = Span::Time(UNDRIVEN);
+                self.run(watch)
+            }
+            run => run.map_err(|error| Failure::run(self.file, &error, None)),
+        }
+    }
+
+    fn simulated(&self, watch: Watch<'_>) -> Result<Run, RunError> {
         let Mechanism { description, parameters, .. } = self.mechanism;
         let system = self.mechanism.system();
-        let result = match &self.signals {
+        match &self.signals {
             Some(signals) => {
                 simulate_with_inputs(&*system, description, parameters, signals, &self.settings, watch)
             }
             None => simulate(&*system, description, parameters, &self.settings, watch),
-        };
-        result.map_err(|error| Failure::run(self.file, &error, None))
+        }
     }
 }
 
@@ -178,7 +196,7 @@ fn span(arguments: &MotionArguments, description: &Description) -> Result<Span, 
     match (time, description.turn_driver, turns) {
         (Some(time), ..) => Ok(Span::Time(time)),
         (None, Some(_), turns) => Ok(Span::Turns(turns.unwrap_or(1.0))),
-        (None, None, None) => Ok(Span::Time(1.0)),
+        (None, None, None) => Ok(Span::Time(UNDRIVEN)),
         (None, None, Some(_)) => {
             let message = "--turns: this mechanism has no driven revolute joint to count turns of";
             Err(Failure::usage(message, "give --time in seconds"))

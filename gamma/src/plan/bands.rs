@@ -1,5 +1,10 @@
 //! What possible laws of life leave open of a plan. In: lives as the data leave them possible, all equally probable; a plan. Out:
-//! intervals. Never knows where the lives are from.
+//! intervals, the same on any number of threads. Never knows where the lives are from.
+
+use std::num::NonZero;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
 
 use super::age::{AgePlan, age_cost_rate, best_age};
 use super::condition::Monitored;
@@ -35,7 +40,7 @@ pub fn age_bands(lives: &[FirstPassage], costs: &Costs, plan: &AgePlan, level: f
         let own = plan.age.map_or(Ok(best.failure_only), |age| age_cost_rate(life, costs, age))?;
         Ok([best.age.unwrap_or(f64::INFINITY), own, best.failure_only])
     };
-    let [ages, rates, waiting] = all(lives, 0, &one)?;
+    let [ages, rates, waiting] = sorted(&on_threads(lives, &one), lives.len())?;
     let pays = ages.iter().filter(|age| age.is_finite()).count() as f64 / ages.len() as f64;
     Some(AgeBands {
         age: ends(&ages, level),
@@ -76,8 +81,7 @@ pub fn look_bands(
         let (interval, threshold) = cheapest(part, (costs, looks), (given[0], given[1]))?;
         Ok([interval, threshold, own])
     };
-    let left_out = lives.len() - parts.len();
-    let [intervals, thresholds, rates] = all(&parts, left_out, &one)?;
+    let [intervals, thresholds, rates] = sorted(&on_threads(&parts, &one), lives.len())?;
     Some(LookBands {
         interval: ends(&intervals, level),
         threshold: ends(&thresholds, level),
@@ -99,22 +103,40 @@ pub fn age_course(
     level: f64,
 ) -> Result<Course, PlanError> {
     let one = |age: f64| {
-        let of = |life: &FirstPassage| Ok([age_cost_rate(life, costs, age)?]);
-        let band = all(lives, 0, &of).map(|[rates]| ends(&rates, level));
+        let rates = lives.iter().filter_map(|life| age_cost_rate(life, costs, age).ok());
+        let rates: Vec<[f64; 1]> = rates.map(|rate| [rate]).collect();
+        let band = sorted(&rates, lives.len()).map(|[rates]| ends(&rates, level));
         Ok((age, age_cost_rate(life, costs, age)?, band))
     };
     ages.iter().copied().map(one).collect()
 }
 
-/// What `one` says of each life, ascending; so many have been left out before.
-fn all<T, const N: usize>(
+/// What `one` says of the lives that it can be asked of, in any order: ends of intervals do not know it.
+fn on_threads<T: Sync, const N: usize>(
     lives: &[T],
-    left_out: usize,
-    one: &dyn Fn(&T) -> Result<[f64; N], PlanError>,
-) -> Option<[Vec<f64>; N]> {
-    let found: Vec<[f64; N]> = lives.iter().filter_map(|life| one(life).ok()).collect();
-    let count = lives.len() + left_out;
-    let missing = (count - found.len()) as f64;
+    one: &(dyn Fn(&T) -> Result<[f64; N], PlanError> + Sync),
+) -> Vec<[f64; N]> {
+    let next = AtomicUsize::new(0);
+    let found = Mutex::new(Vec::with_capacity(lives.len()));
+    let work = || {
+        while let Some(life) = lives.get(next.fetch_add(1, Ordering::Relaxed)) {
+            if let Ok(values) = one(life) {
+                found.lock().unwrap_or_else(PoisonError::into_inner).push(values);
+            }
+        }
+    };
+    thread::scope(|scope| {
+        let threads = thread::available_parallelism().map_or(1, NonZero::get).min(lives.len());
+        // A system that gives no more threads gives time.
+        let _ = (1..threads).take_while(|_| thread::Builder::new().spawn_scoped(scope, work).is_ok()).count();
+        work();
+    });
+    found.into_inner().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// What was found of so many lives, number by number, ascending; none if too many are missing.
+fn sorted<const N: usize>(found: &[[f64; N]], count: usize) -> Option<[Vec<f64>; N]> {
+    let missing = count.saturating_sub(found.len()) as f64;
     if found.is_empty() || missing > LEFT_OUT * count as f64 {
         return None;
     }

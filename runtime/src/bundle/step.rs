@@ -7,7 +7,8 @@ use super::plan::{Evaluate, StepPlan};
 use crate::scalar::Scalar;
 
 impl StepPlan {
-    /// The answers of [`Self::attempt`] and of [`Self::conclude`], one behind the other.
+    /// The end of a step of the classical Runge-Kutta method, how regular loops are on its way, and whether that end has to be projected;
+    /// behind it the answer of [`Self::conclude`]. In: parameters, where the step begins and what is known there.
     pub fn step<T: Scalar>(&self, evaluate: Evaluate<'_, T>, question: &[T]) -> Vec<T> {
         let attempt = self.attempt(evaluate, question);
         let conclusion = self.conclude(evaluate, &[question, &attempt].concat());
