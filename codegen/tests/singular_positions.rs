@@ -6,6 +6,7 @@ use std::f64::consts::{FRAC_PI_3, PI};
 
 use bars::{foldable, four_bar};
 use linkwear_codegen::compile::Compiled;
+use linkwear_codegen::{Options, SourceFile, compile};
 use linkwear_runtime::{Integrator, Run, RunError, Settings, Span, Watch, simulate};
 
 fn run(compiled: &Compiled, integrator: Integrator, time: f64) -> Run {
@@ -105,6 +106,45 @@ fn a_crank_that_passes_a_singular_position_is_told_where() {
     // One radian is where it is drawn, and zero there: in line again after 180 deg less 57.3.
     let [("W0117", message)] = &messages[..] else { panic!("{messages:?}") };
     assert!(message.contains("at 122.7 deg"), "{message}");
+}
+
+/// With three or four cranks rows are redundant, and where all lie in line more than that: the loops close all the way round.
+#[test]
+fn cranks_beside_each_other_pass_the_line_that_all_lie_on() {
+    for (cranks, start) in [(3, 90.0_f64), (3, 60.0), (3, 57.3), (4, 90.0), (4, 30.0)] {
+        let (x, y) = (100.0 * start.to_radians().cos(), 100.0 * start.to_radians().sin());
+        let places = [0.0, 200.0, 450.0, 510.0];
+        let (mut points, mut bodies, mut joints) = (String::new(), String::new(), String::new());
+        for (at, place) in places.into_iter().take(cranks).enumerate() {
+            points += &format!("O{at} = [\"{place} mm\", \"0 m\", \"0 m\"]\n");
+            points += &format!("A{at} = [\"{} mm\", \"{y} mm\", \"0 m\"]\n", place + x);
+            bodies += &format!(
+                "c{at} = {{ rod = [\"O{at}\", \"A{at}\"], radius = \"5 mm\", density = \"7850 kg/m^3\" }}\n"
+            );
+            let drive = if at == 0 { ", drive = \"10 rad/s*t\"" } else { "" };
+            joints += &format!(
+                "R{at} = {{ revolute = [\"ground\", \"c{at}\"], at = \"O{at}\", axis = [0, 0, 1]{drive} }}\n"
+            );
+            joints +=
+                &format!("S{at} = {{ revolute = [\"c{at}\", \"bar\"], at = \"A{at}\", axis = [0, 0, 1] }}\n");
+        }
+        let last = cranks - 1;
+        bodies += &format!(
+            "bar = {{ rod = [\"A0\", \"A{last}\"], radius = \"5 mm\", density = \"7850 kg/m^3\" }}\n"
+        );
+        let text = format!(
+            "spec = 1\nname = \"cranks\"\ngravity = [0, 0, 0]\n[points]\n{points}[bodies]\n{bodies}[joints]\n{joints}"
+        );
+        let source = SourceFile { name: "cranks.toml".to_owned(), text };
+        let compiled = compile(&source, &Options::default()).expect("it is taken");
+        let codes: Vec<_> = compiled.warnings.iter().map(|warning| warning.code.as_str()).collect();
+        assert_eq!(codes, ["W0117"], "{cranks} cranks from {start} deg: {:?}", compiled.warnings);
+        let message = &compiled.warnings[0].message;
+        assert!(
+            message.contains(&format!("at {:.1} deg", 180.0 - start).replace(".0 deg", " deg")),
+            "{message}"
+        );
+    }
 }
 
 #[test]

@@ -25,7 +25,7 @@ use super::answer::simulate::{PeakAnswer, SimulateAnswer, TurnAnswer};
 use super::arguments::SimulateArguments;
 use super::failure::{Failure, warnings};
 use super::input::{check_output, check_replaced, load_mechanism};
-use super::options::{IntegratorName, LengthArguments, MotionArguments};
+use super::options::{IntegratorName, MotionArguments};
 #[cfg(feature = "page")]
 use super::picture;
 use super::summary;
@@ -125,9 +125,10 @@ impl<'a> Simulation<'a> {
         self.simulated(watch).map_err(|error| Failure::run(self.file, &error, None))
     }
 
+    #[cfg(feature = "page")]
     /// The run of a picture: of [`UNDRIVEN`] seconds where a driver never gets round and nobody said how long.
     pub fn shown(&mut self, arguments: &MotionArguments, watch: Watch<'_>) -> Result<Run, Failure> {
-        let LengthArguments { turns, time } = arguments.length;
+        let (turns, time) = (arguments.length.turns, arguments.length.time);
         match self.simulated(watch) {
             Err(RunError::TurnsNotReached { .. }) if turns.is_none() && time.is_none() => {
                 eprintln!("warning: the driver does not get round; what is shown are {UNDRIVEN} s");

@@ -143,7 +143,13 @@ impl<'a> Course<'a> {
                 }
                 part /= 2.0;
             };
-            let leap = || LEAPS.iter().find_map(|leap| Some((self.at(last, last.t + leap * whole)?, *leap)));
+            // On the fold itself loops do not tell how the motion goes on: the position before it does.
+            let before = self.waypoints.len().checked_sub(2).map(|before| &self.waypoints[before]);
+            let leap = || {
+                std::iter::once(last).chain(before).find_map(|from| {
+                    LEAPS.iter().find_map(|leap| Some((self.at(from, last.t + leap * whole)?, *leap)))
+                })
+            };
             let Some((next, gained)) = tried.or_else(leap) else {
                 self.ends = true;
                 return;
