@@ -106,7 +106,7 @@ pub enum SetupError {
     #[error(transparent)]
     NoColumn(#[from] NoColumn),
     /// A setting of the run makes no sense.
-    #[error("setting `{name}` is {value}; it must be {need}")]
+    #[error("setting `{name}` is {}; it must be {need}", plain(*value))]
     Setting {
         /// Name of the setting.
         name: &'static str,
@@ -421,4 +421,14 @@ pub enum RunError {
         /// Time reached.
         t: f64,
     },
+}
+
+/// A number as people write it.
+fn plain(value: f64) -> String {
+    if is_long(value) { format!("{value:e}") } else { format!("{value}") }
+}
+
+/// Whether plain digits of a number are so many that people write an exponent.
+pub(crate) fn is_long(value: f64) -> bool {
+    value != 0.0 && value.is_finite() && !(1e-5..1e16).contains(&value.abs())
 }

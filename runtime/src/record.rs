@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::fmt::{self, Write as _};
 use std::io::{self, Write};
 
+use crate::error::is_long;
 use crate::simulate::Run;
 
 /// Columns of the same length.
@@ -131,12 +132,11 @@ fn write_cell(line: &mut String, (cells, row): (&Cells<'_>, usize), exponents: b
 
 /// Shortest round-trip decimal; exponents where plain digits would be long.
 fn write_number(line: &mut String, value: f64) -> fmt::Result {
-    let size = value.abs();
-    // `+ 0.0` turns a negative zero into zero.
-    if value == 0.0 || (1e-5..1e16).contains(&size) {
-        write!(line, "{}", value + 0.0)
-    } else {
+    if is_long(value) {
         write!(line, "{value:e}")
+    } else {
+        // `+ 0.0` turns a negative zero into zero.
+        write!(line, "{}", value + 0.0)
     }
 }
 

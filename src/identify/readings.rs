@@ -38,7 +38,10 @@ impl Group {
 
     fn check(&self) -> Result<(), IdentifyError> {
         let wrong = |what: String| Err(IdentifyError::Number { group: self.name.clone(), what });
-        if self.values.len() != self.at.len() || self.values.is_empty() {
+        if self.values.is_empty() && self.at.is_empty() {
+            return wrong("there are no readings: rows of numbers follow the header".to_owned());
+        }
+        if self.values.len() != self.at.len() {
             return wrong(format!("{} readings at {} places", self.values.len(), self.at.len()));
         }
         if let Some(value) = self.values.iter().chain(&self.at).find(|value| !value.is_finite()) {

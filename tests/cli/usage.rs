@@ -165,3 +165,76 @@ fn pages_of_the_manual_name_only_pages_that_exist() {
     // Again over what is there, as a packager does.
     assert_eq!(folder.linkwear(&["man", "--out", "man1"]).code, 0);
 }
+
+#[cfg(feature = "page")]
+#[test]
+fn a_picture_of_another_format_is_refused_before_the_work() {
+    let folder = crate::command::Folder::new("ending");
+    let gif = folder.path("a.GIF");
+    for arguments in [
+        &["draw", "mechanisms/pendulum.toml", "-o", &gif][..],
+        &["simulate", "mechanisms/pendulum.toml", "--plot", &gif],
+    ] {
+        let answer = linkwear(arguments);
+        assert_eq!((answer.code, folder.names().len()), (2, 0), "{}", answer.err);
+        assert!(
+            answer.err.contains("not as `.gif`") && answer.err.contains(".svg or .png"),
+            "{}",
+            answer.err
+        );
+    }
+}
+
+/// A rod whose drive follows an input that nothing moves has no turns: it is drawn where it is.
+#[cfg(feature = "page")]
+#[test]
+fn a_driver_that_rests_is_drawn() {
+    let folder = crate::command::Folder::new("rests");
+    let file = folder.write(
+        "rests.toml",
+        "spec = 1\nname = \"rests\"\ngravity = [0, 0, 0]\n[inputs]\ncommand = \"30 deg\"\n\
+         [points]\nO = [\"0 m\", \"0 m\", \"0 m\"]\nA = [\"1 m\", \"0 m\", \"0 m\"]\n\
+         [bodies]\narm = { rod = [\"O\", \"A\"], radius = \"1 cm\", density = \"7850 kg/m^3\" }\n\
+         [joints]\nR = { revolute = [\"ground\", \"arm\"], at = \"O\", axis = [0, 0, 1], drive = \"command\" }\n",
+    );
+    let picture = folder.path("rests.svg");
+    let answer = linkwear(&["draw", &file, "-o", &picture]);
+    assert_eq!(answer.code, 0, "{}", answer.err);
+    assert!(answer.err.contains("does not get round"), "{}", answer.err);
+    assert!(folder.read("rests.svg").contains("</svg>"));
+    // Who says how many turns is told that there are none.
+    assert_eq!(linkwear(&["draw", &file, "--turns", "1", "-o", &folder.path("b.svg")]).code, 1);
+}
+
+#[test]
+fn what_is_no_number_or_none_at_all_is_told_by_its_name() {
+    let folder = crate::command::Folder::new("no-number");
+    let tiny = linkwear(&["life", "mechanisms/rssr.toml", "--tol", "1e-30"]);
+    assert!(tiny.err.contains("is 1e-30;"), "{}", tiny.err);
+    let text = std::fs::read_to_string("mechanisms/rssr.toml").expect("a shipped file");
+    let with = |factor: &str| {
+        let coefficient = "coefficient = \"k_wear\"";
+        assert!(text.contains(coefficient));
+        let changed = text.replace(coefficient, &format!("{coefficient}\ncoefficient_factor = {factor}"));
+        linkwear(&["life", &folder.write("factor.toml", &changed), "--mean", "--coupling", "full"])
+    };
+    let none = with("0");
+    assert!(none.code == 1 && none.err.contains("a wear coefficient of zero"), "{}", none.err);
+    let no_number = with("\"sqrt(1 - sliding_speed/(0.01 m/s))\"");
+    assert!(
+        no_number.code == 1 && no_number.err.contains("`wear of R1` is not a finite number"),
+        "{}",
+        no_number.err
+    );
+    let empty = folder.write("empty.csv", "t [s],R1.drive [N m]\n");
+    let arguments = [
+        "identify",
+        "examples/data/rocker_drive.toml",
+        "--free",
+        "c_rocker=0.005..0.5 N m s/rad",
+        "--measured",
+        &empty,
+    ];
+    let nothing = linkwear(&arguments);
+    assert!(nothing.code == 1 && nothing.err.contains("there are no readings"), "{}", nothing.err);
+}

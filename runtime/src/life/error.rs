@@ -54,7 +54,9 @@ pub enum LifeError<E> {
         touching: f64,
     },
     /// Nothing wears, so nothing fails.
-    #[error("cycle {cycle}: no joint wears (no load or no sliding); the life has no end")]
+    #[error(
+        "cycle {cycle}: no joint wears (no load, no sliding, or a wear coefficient of zero); the life has no end"
+    )]
     NoWear {
         /// The cycle.
         cycle: u64,

@@ -409,11 +409,19 @@ impl<'a> ConstrainedMotion<'a> {
             self.powers(t, q, v, coordinates, work);
             is_finite(work)
         };
-        if finite { Ok(()) } else { Err(infinite_power(t)) }
+        if finite { Ok(()) } else { Err(self.infinite_power(t, &derivative[self.first_integral()..])) }
     }
-}
 
-#[cold]
-fn infinite_power(t: f64) -> RunError {
-    RunError::NonFinite { t, what: "power of drivers and forces".to_owned() }
+    /// By the rates of all integrals.
+    #[cold]
+    fn infinite_power(&self, t: f64, rates: &[f64]) -> RunError {
+        let contact =
+            rates.iter().position(|rate| !rate.is_finite()).and_then(|place| place.checked_sub(WORKS));
+        let contacts = &self.dynamics.evaluator.description().contacts;
+        let what = match contact.and_then(|place| contacts.get(place / TOTALS)) {
+            Some(contact) => format!("wear of {}", contact.joint),
+            None => "power of drivers and forces".to_owned(),
+        };
+        RunError::NonFinite { t, what }
+    }
 }

@@ -1,8 +1,7 @@
 //! What methods of integration ask the motion. In: states on their way. Out: slopes, corrected states, natural sizes.
 
 use super::{
-    ConstrainedMotion, JUMP_FLOOR, PROJECTED_STAGES, SAMPLED, SHUNNED_END, TOTALS, WORKS, infinite_power,
-    is_energy,
+    ConstrainedMotion, JUMP_FLOOR, PROJECTED_STAGES, SAMPLED, SHUNNED_END, TOTALS, WORKS, is_energy,
 };
 use crate::error::RunError;
 use crate::evaluate::CLOSED;
@@ -52,7 +51,8 @@ impl Problem for ConstrainedMotion<'_> {
         let outcome = match &mut slopes {
             Some(slopes) if regular => {
                 let finite = slopes.write(&mut self.dynamics.evaluator, (times, states), derivatives);
-                if finite { Ok(()) } else { Err(infinite_power(times[0])) }
+                // Without contacts.
+                if finite { Ok(()) } else { Err(self.infinite_power(times[0], &[])) }
             }
             _ => one_by_one((times, states), derivatives, |t, y, slope| self.derivative(t, y, slope)),
         };
