@@ -27,6 +27,32 @@ pub struct Stop {
     pub span: Span,
 }
 
+/// A limit that is passed: its key in the file and where it is [rad] or [m].
+pub type Passed = (&'static str, f64);
+
+impl Stop {
+    /// Which of these values of its limits a coordinate has passed by more than `slack` [rad] or [m].
+    pub fn passed(&self, position: f64, limits: [Option<f64>; 2], slack: f64) -> Option<Passed> {
+        match limits {
+            [Some(lower), _] if position < lower - slack => Some(("lower", lower)),
+            [_, Some(upper)] if position > upper + slack => Some(("upper", upper)),
+            _ => None,
+        }
+    }
+
+    /// That its joint starts beyond a limit.
+    pub fn starts_beyond(&self, joint: &str, position: f64, (key, limit): Passed) -> String {
+        let (unit, name) = (if self.angular { "rad" } else { "m" }, &self.name);
+        format!(
+            "joint `{joint}` starts at {position} {unit}, beyond the `{key}` stop `{name}` at {limit} {unit}"
+        )
+    }
+
+    /// The cure.
+    pub const START_BETWEEN: &str =
+        "start between the stops; a part that is pressed against one starts at the limit itself";
+}
+
 /// What a stop takes of the energy of an impact. Speeds are in [rad/s] or [m/s].
 #[derive(Clone, Debug)]
 pub enum StopLoss {

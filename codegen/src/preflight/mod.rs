@@ -22,6 +22,7 @@ mod reactions;
 mod resonance;
 mod samples;
 mod start;
+mod stopped;
 mod subspace;
 mod turn;
 mod without_play;
@@ -115,6 +116,9 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     }
     if let Some((joint, body)) = immobile::massless(case, &positions).filter(|_| errors.is_empty()) {
         errors.push(failures::massless(mechanism, joint, &body));
+    }
+    if errors.is_empty() {
+        errors = stopped::starts_beyond(case, &positions.positions[0]);
     }
     if !errors.is_empty() {
         return fail(errors);

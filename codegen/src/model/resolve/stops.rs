@@ -36,7 +36,7 @@ impl Resolver<'_> {
             let is = model.coordinates()[coordinate];
             let draft = Draft { name, span: written.span, spec: &written.value, is };
             let Some(stop) = self.stop(&draft, joint, coordinate) else { continue };
-            self.check_beyond(&draft, &stop, joints, starts);
+            self.check_beyond(&stop, joints, starts);
             stops.push(stop);
         }
         stops
@@ -273,7 +273,7 @@ impl Resolver<'_> {
     }
 
     /// Reports a start value or a drive that begins beyond the stop.
-    fn check_beyond(&mut self, draft: &Draft<'_>, stop: &Stop, joints: &[Joint], starts: &[Start]) {
+    fn check_beyond(&mut self, stop: &Stop, joints: &[Joint], starts: &[Start]) {
         let own =
             |start: &&Start| start.held && (start.joint, start.coordinate) == (stop.joint, stop.coordinate);
         let started = starts.iter().find(own).and_then(|start| start.position.as_ref());
@@ -282,20 +282,10 @@ impl Resolver<'_> {
         let Some(formula) = started.or(driven) else { return };
         let Some(position) = formula.value_at_time(&self.values, 0.0) else { return };
         let values = stop.limits.each_ref().map(|limit| limit.as_ref().map(|limit| self.value(limit)));
-        let beyond = match values {
-            [Some(lower), _] if position < lower => Some(("lower", lower)),
-            [_, Some(upper)] if position > upper => Some(("upper", upper)),
-            _ => None,
-        };
-        let Some((key, limit)) = beyond else { return };
-        let unit = draft.is.dimension().si_unit();
-        let message = format!(
-            "joint `{}` starts at {position} {unit}, beyond the `{key}` stop `{}` at {limit} {unit}",
-            joints[stop.joint.index()].name,
-            stop.name
-        );
+        let Some(passed) = stop.passed(position, values, 0.0) else { return };
+        let message = stop.starts_beyond(&joints[stop.joint.index()].name, position, passed);
         self.refuse(Code::BadStop, formula.span, message)
             .also(stop.span, "stopped here")
-            .help("start between the stops; a part that is pressed against one starts at the limit itself");
+            .help(Stop::START_BETWEEN);
     }
 }

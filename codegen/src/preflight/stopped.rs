@@ -1,0 +1,45 @@
+//! Whether a mechanism starts between its stops. In: its start, closed. Out: diagnostics. Never judges what the file gives: that is done
+//! where it is read.
+
+use std::f64::consts::TAU;
+
+use crate::diagnostic::{Code, Diagnostic};
+use crate::model::Stop;
+
+use super::case::Case;
+use super::samples::Position;
+
+/// How far beyond a stop loops may leave a joint that starts at it [rad, m].
+const CLOSED: f64 = 1e-8;
+
+/// Joints that start beyond a stop: where loops put them, or at zero, where nothing is given.
+pub fn starts_beyond(case: &Case<'_>, start: &Position) -> Vec<Diagnostic> {
+    let mechanism = case.mechanism;
+    if mechanism.stops.is_empty() {
+        return Vec::new();
+    }
+    let sizes = case.system.sizes();
+    let channels = case.observe(&start.q, &vec![0.0; sizes.all_speeds], &vec![0.0; sizes.rows]);
+    let values = mechanism.parameter_values();
+    let beyond = |stop: &Stop| {
+        let joint = mechanism.joint(stop.joint);
+        let number = if joint.model.coordinates().len() > 1 {
+            (stop.coordinate + 1).to_string()
+        } else {
+            String::new()
+        };
+        let column = case.channel(&format!("{}.q{number}", joint.name))?;
+        let position = channels[column];
+        let limits = stop.limits.each_ref().map(|limit| limit.as_ref()?.value_at_time(&values, 0.0));
+        let passed = |position: f64| stop.passed(position, limits, CLOSED);
+        // Of a joint that closes a loop the angle is known up to whole turns.
+        if case.description.channels[column].wraps
+            && [-TAU, TAU].iter().any(|turn| passed(position + turn).is_none())
+        {
+            return None;
+        }
+        let message = stop.starts_beyond(&joint.name, position, passed(position)?);
+        Some(Diagnostic::new(Code::BadStop, message).at(stop.span, "stopped here").help(Stop::START_BETWEEN))
+    };
+    mechanism.stops.iter().filter_map(beyond).collect()
+}
