@@ -105,7 +105,7 @@ impl Equations {
     /// By interpreting the tapes.
     pub fn interpreted(mechanism: &Compiled) -> Self {
         let system = mechanism.interpreter();
-        Self { name: "interpreter", make: Arc::new(move || Box::new(system.clone())), refusal: None }
+        Self { name: "interpreter", make: Arc::new(move || system.clone().boxed()), refusal: None }
     }
 
     /// As machine code, written now.

@@ -253,7 +253,7 @@ impl Batch {
             Way::Eight(columns) => columns.evaluate(entry, inputs, states, outputs),
             Way::Four(columns) => columns.evaluate(entry, inputs, states, outputs),
             Way::Alone(system) => alone(&**system, entry, inputs, (states, outputs)),
-            Way::Interpreted => alone(&self.interpreter, entry, inputs, (states, outputs)),
+            Way::Interpreted => alone(self.interpreter.on_numbers(), entry, inputs, (states, outputs)),
         }
         self.has_masses(entry, outputs, states)
     }

@@ -1,34 +1,12 @@
 //! What the equations of a mechanism cost on this machine: operations, and time of one call on every back end.
 //! In: a compiled mechanism. Out: [`EntryCost`]s. Never knows what the equations are used for.
 
-use std::hint::black_box;
-use std::time::{Duration, Instant};
-
 use linkwear_codegen::tape::Operations;
 use linkwear_codegen::{Compiled, Options};
-use linkwear_native::{Lanes, Native};
+use linkwear_native::{Lanes, Native, nanoseconds_alone, nanoseconds_of_eight, nanoseconds_of_four};
 use linkwear_runtime::{Entry, Sizes, System};
 
 use crate::backend::{Backend, Equations};
-
-/// How long each entry is called on each back end.
-const MEASURED_FOR: Duration = Duration::from_millis(20);
-/// Shortest time that is measured at once: a hundred times what a clock resolves, and short enough that many are undisturbed.
-const BATCH: Duration = Duration::from_micros(10);
-
-/// Bytes of a line of the cache.
-const LINE: usize = 64;
-
-/// Numbers enough for so many values of all lanes, wherever lines of the cache begin.
-fn room<const N: usize>(length: usize) -> Vec<f64> {
-    vec![0.0; length * N + LINE / size_of::<f64>()]
-}
-
-/// The values from where a line of the cache begins.
-fn aligned<const N: usize>(numbers: &mut [f64]) -> &mut [[f64; N]] {
-    let first = numbers.as_ptr().align_offset(LINE).min(numbers.len());
-    numbers[first..].as_chunks_mut().0
-}
 
 /// Time of one call on each back end [ns]; none where a back end is missing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -70,24 +48,17 @@ pub fn entry_costs(mechanism: &Compiled, options: &Options) -> Vec<EntryCost> {
     let parameters = mechanism.parameters();
     let cost = |(entry, tape): (Entry, &linkwear_codegen::tape::Tape)| {
         let input = input(entry, sizes, &parameters);
-        let alone = |system: &dyn System<f64>| {
-            let sizes = system.sizes();
-            let (mut output, mut workspace) = (vec![0.0; sizes.output(entry)], vec![0.0; sizes.workspace]);
-            nanoseconds(|| {
-                system.evaluate(entry, black_box(&input), &mut output, &mut workspace);
-                black_box(&mut output);
-            })
-        };
+        let alone = |system: &dyn System<f64>| nanoseconds_alone(system, entry, &input);
         EntryCost {
             entry,
             operations: tape.operations(),
             sections: tape.operations_by_section(),
             ns: Nanoseconds {
-                interpreter: Some(alone(&interpreter)),
+                interpreter: Some(alone(interpreter.on_numbers())),
                 native: native.as_ref().map(|system| alone(system)),
                 compiled: compiled.as_deref().map(alone),
-                lanes4: four.as_ref().map(|lanes| side_by_side(lanes, entry, &input)),
-                lanes8: eight.as_ref().map(|lanes| side_by_side(lanes, entry, &input)),
+                lanes4: four.as_ref().map(|lanes| nanoseconds_of_four(lanes, entry, &input)),
+                lanes8: eight.as_ref().map(|lanes| nanoseconds_of_eight(lanes, entry, &input)),
             },
         }
     };
@@ -97,38 +68,4 @@ pub fn entry_costs(mechanism: &Compiled, options: &Options) -> Vec<EntryCost> {
 fn input(entry: Entry, sizes: Sizes, parameters: &[f64]) -> Vec<f64> {
     let others = (0..sizes.input(entry) - parameters.len()).map(|index| 0.3 + 0.01 * index as f64);
     parameters.iter().copied().chain(others).collect()
-}
-
-/// Time of one state among several.
-fn side_by_side<const N: usize>(lanes: &Lanes<N>, entry: Entry, input: &[f64]) -> f64 {
-    let sizes = lanes.sizes();
-    let [mut inputs, mut outputs] = [sizes.input(entry), sizes.output(entry)].map(room::<N>);
-    let (inputs, outputs) = (aligned(&mut inputs), aligned(&mut outputs));
-    for (place, value) in inputs.iter_mut().zip(input) {
-        *place = [*value; N];
-    }
-    let mut workspace = vec![[0.0; N]; sizes.workspace];
-    let all = nanoseconds(|| {
-        lanes.evaluate(entry, black_box(inputs), outputs, &mut workspace);
-        black_box(&mut *outputs);
-    });
-    all / N as f64
-}
-
-/// Time of one call [ns]: the least of many batches, since whatever disturbs makes it longer.
-fn nanoseconds(mut call: impl FnMut()) -> f64 {
-    let mut timed = |calls: u32| {
-        let start = Instant::now();
-        (0..calls).for_each(|_| call());
-        start.elapsed()
-    };
-    let mut calls = 1;
-    while timed(calls) < BATCH {
-        calls *= 2;
-    }
-    let (mut least, begin) = (Duration::MAX, Instant::now());
-    while begin.elapsed() < MEASURED_FOR {
-        least = least.min(timed(calls));
-    }
-    1e9 * least.as_secs_f64() / f64::from(calls)
 }

@@ -96,5 +96,7 @@ fn turn(mechanism: &Compiled) -> Option<f64> {
     let (description, system): (&Description, _) = (mechanism.description(), mechanism.interpreter());
     let integrator = Integrator::adaptive(description, None);
     let parameters = mechanism.parameters();
-    TurnRunner::new(&system, description, &parameters, integrator, SINGULAR_PIVOT).ok()?.seconds_per_turn()
+    TurnRunner::new(system.on_numbers(), description, &parameters, integrator, SINGULAR_PIVOT)
+        .ok()?
+        .seconds_per_turn()
 }

@@ -40,6 +40,7 @@ mod seldom;
 #[cfg(any(test, target_arch = "aarch64", target_arch = "x86_64"))]
 mod straight;
 mod system;
+mod timing;
 #[cfg(not(any(target_arch = "aarch64", target_arch = "x86_64")))]
 mod unsupported;
 #[cfg(target_arch = "x86_64")]
@@ -50,3 +51,4 @@ pub use lanes::{Lanes, NativeBundle};
 pub use refusal::Refusal;
 pub use routine::Routine;
 pub use system::Native;
+pub use timing::{nanoseconds_alone, nanoseconds_of_eight, nanoseconds_of_four};

@@ -68,8 +68,13 @@ fn numbers(unit: &Unit, step: f64) -> String {
 fn step(mechanism: &Compiled, stop: f64) -> f64 {
     let description = mechanism.description();
     let settings = Settings::new(Integrator::adaptive(description, None), Span::Time(stop), 0);
-    let run =
-        simulate(&mechanism.interpreter(), description, &mechanism.parameters(), &settings, Watch::NONE);
+    let run = simulate(
+        mechanism.interpreter().on_numbers(),
+        description,
+        &mechanism.parameters(),
+        &settings,
+        Watch::NONE,
+    );
     let steps = run.ok().filter(|run| run.stopped.is_none()).map_or(0, |run| run.statistics.steps);
     let step = if steps == 0 { STEP } else { (SHORTER * stop / steps as f64).min(LONGEST * stop) };
     let digits = 10.0_f64.powf(step.log10().floor() - 1.0);

@@ -71,6 +71,16 @@ impl Interpreted {
         }
     }
 
+    /// On numbers. What is generic is compiled by the crate that asks for it; this is compiled here, where it is optimised.
+    pub fn on_numbers(&self) -> &dyn System<f64> {
+        self
+    }
+
+    /// The same for who keeps it.
+    pub fn boxed(self) -> Box<dyn System<f64>> {
+        Box::new(self)
+    }
+
     /// Names and units of what is evaluated.
     pub fn description(&self) -> &Description {
         &self.description
