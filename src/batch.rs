@@ -281,7 +281,7 @@ impl Batch {
         if expected != found || by.iter().any(|at| *at >= found) {
             return Err(BatchError::Quantities { entry: entry.name(), expected, found });
         }
-        let system: &dyn System<Dual<f64>> = &self.interpreter;
+        let system = self.interpreter.on_duals();
         let sizes = system.sizes();
         let none = Dual::new(0.0, 0.0);
         let (mut output, mut workspace) = (vec![none; sizes.output(entry)], vec![none; sizes.workspace]);

@@ -6,7 +6,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use linkwear_runtime::{Description, Entry, Scalar, Sizes, System, angle_over_sine, log_coefficient};
+use linkwear_runtime::{Description, Dual, Entry, Scalar, Sizes, System, angle_over_sine, log_coefficient};
 
 use crate::operation::{Binary, Op, Operand, Unary};
 use crate::registers::Registers;
@@ -72,11 +72,19 @@ impl Interpreted {
     }
 
     /// On numbers. What is generic is compiled by the crate that asks for it; this is compiled here, where it is optimised.
+    #[inline(never)]
     pub fn on_numbers(&self) -> &dyn System<f64> {
         self
     }
 
-    /// The same for who keeps it.
+    /// On numbers with a derivative, as [`Self::on_numbers`].
+    #[inline(never)]
+    pub fn on_duals(&self) -> &dyn System<Dual<f64>> {
+        self
+    }
+
+    /// On numbers, for who keeps it.
+    #[inline(never)]
     pub fn boxed(self) -> Box<dyn System<f64>> {
         Box::new(self)
     }
