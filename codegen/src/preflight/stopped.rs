@@ -1,8 +1,6 @@
 //! Whether a mechanism starts between its stops. In: its start, closed. Out: diagnostics. Never judges what the file gives: that is done
 //! where it is read.
 
-use std::f64::consts::TAU;
-
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Stop;
 
@@ -31,14 +29,8 @@ pub fn starts_beyond(case: &Case<'_>, start: &Position) -> Vec<Diagnostic> {
         let column = case.channel(&format!("{}.q{number}", joint.name))?;
         let position = channels[column];
         let limits = stop.limits.each_ref().map(|limit| limit.as_ref()?.value_at_time(&values, 0.0));
-        let passed = |position: f64| stop.passed(position, limits, CLOSED);
-        // Of a joint that closes a loop the angle is known up to whole turns.
-        if case.description.channels[column].wraps
-            && [-TAU, TAU].iter().any(|turn| passed(position + turn).is_none())
-        {
-            return None;
-        }
-        let message = stop.starts_beyond(&joint.name, position, passed(position)?);
+        let passed = stop.passed(position, limits, CLOSED)?;
+        let message = stop.starts_beyond(&joint.name, position, passed);
         Some(Diagnostic::new(Code::BadStop, message).at(stop.span, "stopped here").help(Stop::START_BETWEEN))
     };
     mechanism.stops.iter().filter_map(beyond).collect()

@@ -83,7 +83,7 @@ impl Lu {
                 let others = before.chunks_exact_mut(blocks).chain(after.chunks_exact_mut(blocks));
                 others.for_each(|other| other.as_flattened_mut().swap(best, k));
             }
-            column[k + 1..].iter_mut().for_each(|factor| *factor *= reciprocal);
+            column[k + 1..n].iter_mut().for_each(|factor| *factor *= reciprocal);
             let multiples = self.multiples.as_flattened_mut();
             multiples[..=k].fill(0.0);
             multiples[k + 1..].copy_from_slice(&column[k + 1..]);
