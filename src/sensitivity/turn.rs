@@ -182,8 +182,7 @@ impl<const N: usize> Turns<N> {
         }
         let (middle, end) = (self.time(at + 0.5 * part.of_turn), self.time(at + part.of_turn));
         let Self { stages, at: places, .. } = self;
-        stages.put_varied(self.sizes.parameters, &middle);
-        stages.put_many(self.sizes.parameters + 1, (&flat.values, &flat.tangents));
+        put_flat(stages, self.sizes.parameters, (&middle, flat));
         stages.put_varied(places.end, &end);
         stages.put_varied(places.length, &length);
         let (values, tangents) = stages.run();
@@ -207,8 +206,7 @@ impl<const N: usize> Turns<N> {
 
     /// Where a step begins: tells its stages the slope there. Out: what contacts are like.
     fn begin(&mut self, t: Varied<N>, flat: &Many<N>) -> Vec<Varied<N>> {
-        self.motion.put_varied(self.sizes.parameters, &t);
-        self.motion.put_many(self.sizes.parameters + 1, (&flat.values, &flat.tangents));
+        put_flat(&mut self.motion, self.sizes.parameters, (&t, flat));
         let (values, tangents) = self.motion.run();
         self.stages.put_many(self.at.slope, (values, tangents));
         let answers = values.iter().zip(tangents).skip(flat.values.len());
@@ -258,7 +256,13 @@ fn crossing<const N: usize>(before: Option<[Varied<N>; 2]>, after: [Varied<N>; 2
     Varied { value: speeds[0].value, tangents: speeds.map(|speed| speed.derivative) }
 }
 
-/// Writes time and state to the inputs of a function.
+/// Writes time and state to the inputs of a function, in one go.
+fn put_flat<const N: usize>(function: &mut Function<N>, first: usize, (t, flat): (&Varied<N>, &Many<N>)) {
+    function.put_varied(first, t);
+    function.put_many(first + 1, (&flat.values, &flat.tangents));
+}
+
+/// Writes time and state, number by number, to the inputs of a function.
 pub(super) fn put_state<const N: usize>(
     function: &mut Function<N>,
     first: usize,

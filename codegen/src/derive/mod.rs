@@ -73,6 +73,7 @@ mod wear_factor;
 mod wrench;
 
 pub use closure::row_count;
+pub(crate) use entries::number_among;
 pub use entries::{
     Derived, Purpose, clearly_shorter, derive, equations_of_motion, shorter_in_ground, shorter_off_balls,
     splits_plane_rows,

@@ -1,6 +1,7 @@
 //! Whether a mechanism starts between its stops. In: its start, closed. Out: diagnostics. Never judges what the file gives: that is done
 //! where it is read.
 
+use crate::derive::number_among;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Stop;
 
@@ -21,11 +22,7 @@ pub fn starts_beyond(case: &Case<'_>, start: &Position) -> Vec<Diagnostic> {
     let values = mechanism.parameter_values();
     let beyond = |stop: &Stop| {
         let joint = mechanism.joint(stop.joint);
-        let number = if joint.model.coordinates().len() > 1 {
-            (stop.coordinate + 1).to_string()
-        } else {
-            String::new()
-        };
+        let number = number_among(joint.model.coordinates().len(), stop.coordinate);
         let column = case.channel(&format!("{}.q{number}", joint.name))?;
         let position = channels[column];
         let limits = stop.limits.each_ref().map(|limit| limit.as_ref()?.value_at_time(&values, 0.0));

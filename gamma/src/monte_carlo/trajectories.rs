@@ -243,7 +243,7 @@ impl MonteCarlo<'_> {
     }
 }
 
-/// Sorts lives by their numbers.
+/// Sorts lives by their numbers. Apart, because what is generic is compiled by the crate that calls it.
 fn by_number(lives: &mut [(u64, FailureEvent)]) {
     lives.sort_unstable_by_key(|(trajectory, _)| *trajectory);
 }

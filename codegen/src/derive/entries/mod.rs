@@ -26,6 +26,7 @@ use super::plan::Guide;
 use super::{Derivation, Equations, Function};
 use deriver::{Deriver, inputs};
 use functions::function;
+pub(crate) use names::number_among;
 pub use row_axes::{clearly_shorter, shorter_in_ground, shorter_off_balls, splits_plane_rows};
 
 /// The result: equations, their layout, and what they are called.

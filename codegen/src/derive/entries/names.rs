@@ -58,7 +58,7 @@ pub(super) fn variable_names(mechanism: &Mechanism, linkage: &Linkage) -> Names 
 }
 
 /// What follows the name of one of several coordinates: its number, from 1. A single one needs none.
-pub(super) fn number_among(count: usize, index: usize) -> String {
+pub(crate) fn number_among(count: usize, index: usize) -> String {
     if count > 1 { (index + 1).to_string() } else { String::new() }
 }
 
