@@ -99,4 +99,5 @@ fn turn(mechanism: &Compiled) -> Option<f64> {
     TurnRunner::new(system.on_numbers(), description, &parameters, integrator, SINGULAR_PIVOT)
         .ok()?
         .seconds_per_turn()
+        .ok()?
 }

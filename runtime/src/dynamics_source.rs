@@ -95,7 +95,10 @@ impl<'a> DynamicsSource<'a> {
     }
 
     /// How long a revolution lasts [s]; nothing where the first three last differently.
-    pub fn seconds_per_revolution(&mut self) -> Option<f64> {
+    ///
+    /// # Errors
+    /// [`RunError::TurnsNotReached`] if there are none.
+    pub fn seconds_per_revolution(&mut self) -> Result<Option<f64>, RunError> {
         self.runner.seconds_per_turn()
     }
 

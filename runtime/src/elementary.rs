@@ -8,7 +8,7 @@ mod exponential;
 mod logarithm;
 
 pub use arctangent::atan2;
-pub use exponential::exp;
+pub use exponential::{exp, exp_of_moderate};
 pub use logarithm::ln;
 
 /// ln 2 as the sum of two: whole numbers below 2^20 times the first are exact.

@@ -208,6 +208,9 @@ pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure
         Cause::UnevenTurns { .. } => {
             "drive it at one speed in each segment, as in drive = \"2*pi*speed*t\"; --no-mission lives without missions".to_owned()
         }
+        Cause::Rests { .. } => {
+            "leave the segment out: a rest wears nothing, and shares and durations are of the operating time".to_owned()
+        }
         Cause::MissionOutlastsLife { .. } => {
             "give shares of the operating time if it is used so for good, or break the mission into shorter ones".to_owned()
         }

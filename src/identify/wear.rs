@@ -81,7 +81,7 @@ impl WearPath {
         let source =
             DynamicsSource::new(&*system, &mechanism.description, &mechanism.parameters, revolutions);
         let mut source = source.map_err(failed)?.watched_by(watch);
-        let seconds_per_revolution = source.seconds_per_revolution();
+        let seconds_per_revolution = source.seconds_per_revolution().map_err(failed)?;
         let mut settings = LifeSettings::new(source.joints().map_err(failed)?);
         settings.step = WearStep::TABLE;
         let most = |joint: &str| {

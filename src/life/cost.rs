@@ -13,16 +13,17 @@ use super::study::{Coupling, LifeStudy};
 
 /// Measurements of a mean path that is measured ahead: fewest where wear is smooth, most where it scatters.
 const AHEAD: [f64; 2] = [9.0, 130.0];
-/// Measurements per cycle of others: fewest where steps grow to their longest, most where wear is noisy or steps stay within a cycle.
-const PER_CYCLE: [f64; 2] = [0.2, 5.0];
+/// Measurements of others: fewest where wear is smooth, ...
+const FEWEST: f64 = 30.0;
+/// ... most where it is noisy: steps stay within a cycle at first, and reach over some thirty later.
+const PER_CYCLE: [f64; 2] = [5.0, 0.1];
+const FIRST_CYCLES: f64 = 50.0;
 /// Measurements per cycle of a random life: one in its middle, and now and then three; four where a profile is fed back.
 const PER_DRAWN_CYCLE: [f64; 2] = [1.3, 4.0];
 /// How many times shorter a turn is in one of the lanes of a thread than alone: 4 to 5 in the case study.
 const SHORTER_IN_LANES: f64 = 4.0;
 /// Revolutions that a motion takes to settle when what it wears has hardly changed.
 const TO_SETTLE: u32 = 1;
-/// Shortest mean path: its first steps are short.
-const FEWEST: f64 = 30.0;
 
 /// What full coupling costs by one revolution from the start, as far as the rest of the life is like it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +80,9 @@ impl LifeStudy<'_> {
         });
         let cycles = life.fold(f64::INFINITY, f64::min);
         let is_ahead = plan.settings.is_measured_ahead();
-        let by_cycle = PER_CYCLE.map(|per_cycle| (per_cycle * cycles).max(FEWEST));
+        let [first, later] = PER_CYCLE;
+        let most = first * cycles.min(FIRST_CYCLES) + later * (cycles - FIRST_CYCLES).max(0.0);
+        let step_by_step = [FEWEST, most.max(FEWEST)];
         let shorter = if code.has_lanes() { SHORTER_IN_LANES } else { 1.0 };
         let lives = plan.trajectories.unwrap_or(0) as f64 / plan.threads.get() as f64;
         let has_table = joints.iter().all(|joint| joint.feedback != Feedback::Profile);
@@ -89,7 +92,7 @@ impl LifeStudy<'_> {
             seconds_per_revolution,
             revolutions: self.revolutions.settle.unwrap_or(TO_SETTLE) + self.revolutions.average.max(1),
             cycles,
-            mean_path: if is_ahead { AHEAD } else { by_cycle },
+            mean_path: if is_ahead { AHEAD } else { step_by_step },
             mean_path_side_by_side: if is_ahead { shorter } else { 1.0 },
             lives: lives * PER_DRAWN_CYCLE[usize::from(!has_table)] * cycles,
             side_by_side: plan.lanes().map_or(1.0, |_| SHORTER_IN_LANES),

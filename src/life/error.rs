@@ -88,6 +88,14 @@ pub enum Cause {
         /// The segment.
         segment: String,
     },
+    /// A segment has no revolutions.
+    #[error(
+        "the mechanism rests in segment `{segment}`: its driver does not get round there, so it has no revolutions to wear by"
+    )]
+    Rests {
+        /// The segment.
+        segment: String,
+    },
     /// A segment cannot be run.
     #[error(transparent)]
     Segment(Box<MissionError<RunError>>),

@@ -91,7 +91,7 @@ impl Duty {
         };
         let mut duty = Self { name: None, setups: vec![whole] };
         let source = duty.sources(system, study.revolutions, Watch::NONE)?.pop();
-        duty.setups[0].seconds = source.and_then(|mut source| source.seconds_per_revolution());
+        duty.setups[0].seconds = source.and_then(|mut source| source.seconds_per_revolution().ok()?);
         Ok(duty)
     }
 
@@ -120,13 +120,14 @@ impl Duty {
         let setups = segments.iter().map(setup).collect();
         let mut duty = Self { name: Some(mission.name.to_string()), setups };
         let mut sources = duty.sources(system, study.revolutions, Watch::NONE)?;
-        let learnt: Vec<(Option<f64>, Vec<f64>)> = sources
-            .iter_mut()
-            .map(|source| {
-                let unworn = source.unworn();
-                (source.seconds_per_revolution(), unworn.iter().map(|joint| joint.clearance).collect())
-            })
-            .collect();
+        let learnt = duty.setups.iter().zip(&mut sources).map(|(setup, source)| {
+            let seconds = source.seconds_per_revolution().map_err(|error| match error {
+                RunError::TurnsNotReached { .. } => Cause::Rests { segment: setup.name.clone() },
+                error => duty.error(setup, error).into(),
+            })?;
+            Ok((seconds, source.unworn().iter().map(|joint| joint.clearance).collect()))
+        });
+        let learnt = learnt.collect::<Result<Vec<(Option<f64>, Vec<f64>)>, Cause>>()?;
         drop(sources);
         let first = learnt.first().map_or_else(Vec::new, |(_, clearances)| clearances.clone());
         for (setup, (seconds, clearances)) in duty.setups.iter_mut().zip(learnt) {

@@ -89,7 +89,7 @@ impl Variant {
         let system = compiled.interpreter();
         let settings = RevolutionSettings::default();
         let mut source = DynamicsSource::new(system.on_numbers(), description, &parameters, settings)?;
-        let turn = source.seconds_per_revolution().ok_or(SensitivityError::UnevenTurns)?;
+        let turn = source.seconds_per_revolution()?.ok_or(SensitivityError::UnevenTurns)?;
         let joints = source.joints()?;
         if joints.is_empty() {
             return Err(SensitivityError::NothingWears);

@@ -56,3 +56,23 @@ fn wrong_choices_are_answered() {
     }
     assert_eq!(linkwear(&["life", DUTY, "--mission", "shift", "--no-mission"]).code, 2);
 }
+
+#[test]
+fn a_segment_at_rest_has_no_revolutions() {
+    let folder = Folder::new("rest");
+    let duty = std::fs::read_to_string(DUTY).expect("the example").replacen(
+        r#"speed = "1 Hz""#,
+        r#"speed = "0 Hz""#,
+        1,
+    );
+    folder.write("duty.toml", &duty);
+    let series = std::fs::read_to_string("examples/data/udds_feeder.csv").expect("its series");
+    folder.write("udds_feeder.csv", &series);
+    let answer = linkwear(&["life", &folder.path("duty.toml"), "--mission", "shift", "--mean"]);
+    assert_eq!(answer.code, 1, "{}", answer.out);
+    assert!(
+        answer.err.contains("rests in segment `idle`") && answer.err.contains("leave the segment out"),
+        "{}",
+        answer.err
+    );
+}

@@ -17,6 +17,23 @@ pub fn exp<T: Scalar>(x: T) -> T {
     let c = T::constant;
     // What is not a number passes both comparisons.
     let x = T::select(c(MOST).lt(x), c(MOST), T::select(x.lt(c(LEAST)), c(LEAST), x));
+    let (value, power) = reduced(x);
+    // In two powers of two: results reach from 2^-1074 to 2^1024. The first product is exact.
+    let half = (power * c(0.5) + c(ROUND)) - c(ROUND);
+    value * half.power_of_two() * (power - half).power_of_two()
+}
+
+/// The same bits for |x| up to 700, where results are normal numbers, in three quarters of the operations; anything beyond.
+#[inline]
+pub fn exp_of_moderate<T: Scalar>(x: T) -> T {
+    let (value, power) = reduced(x);
+    value * power.power_of_two()
+}
+
+/// A number from 0.7 to 1.5, and the power of two that it is to be multiplied by.
+#[inline]
+fn reduced<T: Scalar>(x: T) -> (T, T) {
+    let c = T::constant;
     let power = (x * c(core::f64::consts::LOG2_E) + c(ROUND)) - c(ROUND);
     let high = x - power * c(LN2_HIGH);
     let low = power * c(LN2_LOW);
@@ -27,10 +44,7 @@ pub fn exp<T: Scalar>(x: T) -> T {
             + t * (c(6.613_756_321_437_934_361_17e-5)
                 + t * (c(-1.653_390_220_546_525_153_90e-6) + t * c(4.138_136_797_057_238_460_39e-8))));
     let rest = r - t * p;
-    let value = c(1.0) - ((low - (r * rest) / (c(2.0) - rest)) - high);
-    // In two powers of two: results reach from 2^-1074 to 2^1024. The first product is exact.
-    let half = (power * c(0.5) + c(ROUND)) - c(ROUND);
-    value * half.power_of_two() * (power - half).power_of_two()
+    (c(1.0) - ((low - (r * rest) / (c(2.0) - rest)) - high), power)
 }
 
 #[cfg(test)]
@@ -50,6 +64,16 @@ mod tests {
             }
         });
         assert!(largest <= 1.0, "{largest} ulp");
+    }
+
+    #[test]
+    fn moderate_arguments_have_the_same_bits() {
+        sweep(200_000, |unit, sign| {
+            for x in [sign * 700.0 * unit, -40.0 * unit, sign * 2_f64.powf(-60.0 * unit)] {
+                assert_eq!(exp_of_moderate(x).to_bits(), exp(x).to_bits(), "{x}");
+            }
+        });
+        assert_eq!((exp_of_moderate(0.0), exp_of_moderate(-0.0)), (1.0, 1.0));
     }
 
     #[test]

@@ -5,6 +5,7 @@
 use std::ops::ControlFlow;
 use std::slice;
 
+use super::crossing::first_reached;
 use super::error::LifeError;
 use super::increment::IncrementModel;
 use super::joint::Feedback;
@@ -83,7 +84,8 @@ fn advance<F: WearSource>(
                 Some(measured) => measured,
                 None => walker.go_on_to(&vec![0.0; settings.width()])?,
             };
-            let most = reachable(settings, &base, &measured, state.cycle, draw.is_mean())?;
+            let most =
+                reachable(settings, &base, &measured, state.cycle, draw.is_mean().then_some(control.step))?;
             let left = settings.most_cycles.saturating_sub(state.cycle);
             let ahead = if draw.is_mean() { walker.ahead(&measured, left, watch) } else { None };
             let path = match ahead {
@@ -132,14 +134,15 @@ fn advance<F: WearSource>(
     Ok(flow)
 }
 
-/// Whole cycles that a step may cover, from what a revolution wears now: half the way to failure, so that wear that
-/// speeds up does not carry a stage far beyond, where a table ends and a worn joint may not run any more.
+/// Whole cycles that a step may cover, from what a revolution wears now and, on the mean path, the cycles that a step might take by
+/// its error. Half the way to failure, so that wear that speeds up does not carry a stage far beyond, where a table ends and a worn
+/// joint may not run any more; all of it where wear changes too little over so many cycles.
 fn reachable<E>(
     settings: &LifeSettings,
     base: &[WearState],
     measured: &[ContactMeasure],
     cycle: u64,
-    is_mean: bool,
+    step: Option<f64>,
 ) -> Result<u64, LifeError<E>> {
     let rates = rates(settings, measured);
     let mut life = f64::INFINITY;
@@ -156,7 +159,10 @@ fn reachable<E>(
     if life == f64::INFINITY && rates.iter().all(|rate| *rate == 0.0) {
         return Err(LifeError::NoWear { cycle: cycle + 1 });
     }
-    Ok(if is_mean { (0.5 * life).ceil().max(1.0) as u64 } else { 1 })
+    Ok(step.map_or(1, |step| {
+        let part = if step >= life { 1.0 } else { 0.5 };
+        (part * life).ceil().max(1.0) as u64
+    }))
 }
 
 /// What the cycles of a path come to, after the draw.
@@ -292,15 +298,7 @@ impl Begins<'_> {
     /// When, in cycles since the start of the path, a joint reached its threshold in the next cycle.
     fn crossing(&self, path: &Path, at: usize, (factor, cycle): (f64, u64)) -> f64 {
         let threshold = self.settings.joints[at].threshold;
-        let is_worn = |time: f64| self.joint(at, &path.at(time), factor).wear >= threshold;
-        let (mut early, mut late) = ((cycle - 1) as f64, cycle as f64);
-        // Down to neighbouring numbers.
-        loop {
-            let middle = 0.5 * (early + late);
-            if middle <= early || middle >= late {
-                return late;
-            }
-            if is_worn(middle) { late = middle } else { early = middle }
-        }
+        let excess = |time: f64| self.joint(at, &path.at(time), factor).wear - threshold;
+        first_reached((cycle - 1) as f64, cycle as f64, excess)
     }
 }

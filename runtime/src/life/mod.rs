@@ -13,6 +13,7 @@ mod ahead;
 mod along_curves;
 mod asked;
 mod calibrate;
+mod crossing;
 mod curve;
 mod cycle;
 mod error;

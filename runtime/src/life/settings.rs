@@ -26,7 +26,7 @@ pub enum WearStep {
 
 impl WearStep {
     /// For a fine scale that costs seconds.
-    pub const FULL: Self = Self::Adaptive { tolerance: 1e-4, shortest: 0.25, longest: 64, remembers: true };
+    pub const FULL: Self = Self::Adaptive { tolerance: 1e-4, shortest: 0.25, longest: 1024, remembers: true };
     /// For a table.
     pub const TABLE: Self = Self::Adaptive { tolerance: 1e-6, shortest: 0.01, longest: 16, remembers: false };
     /// For a calibration, which compares lives with each other to seven digits.

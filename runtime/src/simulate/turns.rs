@@ -189,14 +189,17 @@ impl<'a> TurnRunner<'a> {
     }
 
     /// How long a turn lasts [s], if the first three last equally long.
-    pub fn seconds_per_turn(&mut self) -> Option<f64> {
+    ///
+    /// # Errors
+    /// [`RunError::TurnsNotReached`] if there are none.
+    pub fn seconds_per_turn(&mut self) -> Result<Option<f64>, RunError> {
         let evaluator = &mut self.motion.dynamics.evaluator;
-        let mut turn = |from: f64| Schedule::turn(evaluator, from).ok().map(|turn| turn.end);
+        let mut turn = |from: f64| Schedule::turn(evaluator, from).map(|turn| turn.end);
         let first = turn(0.0)?;
         let second = turn(first)?;
         let third = turn(second)?;
         let is_even = |length: f64| (length - first).abs() <= EVEN * first;
-        (is_even(second - first) && is_even(third - second)).then_some(first)
+        Ok((is_even(second - first) && is_even(third - second)).then_some(first))
     }
 
     /// Runs turns one after the other.
@@ -221,7 +224,7 @@ impl<'a> TurnRunner<'a> {
     /// Whether every turn is as the one before but for clearances: drivers leave no freedom open but play, and repeat
     /// themselves with the turn.
     fn turns_are_alike(&mut self) -> bool {
-        let Some(turn) = self.seconds_per_turn() else { return false };
+        let Ok(Some(turn)) = self.seconds_per_turn() else { return false };
         let evaluator = &mut self.motion.dynamics.evaluator;
         let play: usize = evaluator.clearances().joints().iter().map(Clearance::freedoms).sum();
         let sizes = evaluator.sizes();

@@ -16,6 +16,7 @@ use core::f64::consts::PI;
 
 use super::surfaces::Surfaces;
 use crate::contact::{Support, bearing_angle};
+use crate::elementary::exp_of_moderate;
 use crate::scalar::Scalar;
 
 /// The maximum is smoothed over this many bins to both sides of a round bearing: at 0.8 the ripple from the bins is
@@ -208,7 +209,11 @@ impl Sums<'_> {
     fn add<const N: usize>(&mut self, place: usize, reaches: &impl Reaches) {
         let (reach, slopes) = reaches.at::<N>(place);
         let above = reach.map(|reach| (reach - self.largest) * self.per_scale);
-        let weights = above.map(|above| f64::select((-NOTHING).lt(above), Scalar::exp(above), 0.0));
+        // In a deep place most bins of its window reach too little: no exponential for them.
+        if !above.iter().any(|above| -NOTHING < *above) {
+            return;
+        }
+        let weights = above.map(|above| f64::select((-NOTHING).lt(above), exp_of_moderate(above), 0.0));
         let [x, y] = self.grid.normals_at::<N>(place);
         for lane in 0..N {
             let weighed = [1.0, x[lane], y[lane], slopes[lane]];

@@ -8,14 +8,17 @@ use core::f64::consts::FRAC_PI_2;
 
 use super::profile::Profile;
 use super::reach::NOTHING;
+use crate::elementary::exp_of_moderate;
 use crate::scalar::Scalar;
 
 /// A minimum counts as shared by places this part of the depth of a bin's circular segment above it: small against
 /// the segment, so that an unworn bearing is worn where the journal points.
 const SHARED: f64 = 1.0 / 8.0;
-/// Wear is taken away in pieces of at most this part of that depth, so that edges go before a hole grows.
+/// Wear is taken away in pieces that deepen no bin by more than this part of that depth, so that edges go before a hole grows.
 const PIECE: f64 = 0.25;
-/// Upper limit on the number of sub-steps of one wear step.
+/// Bins of one pass.
+const LANES: usize = 4;
+/// Upper limit on the number of pieces of one wear step.
 const MOST_PIECES: f64 = 4096.0;
 
 impl Profile {
@@ -30,15 +33,15 @@ impl Profile {
             return true;
         }
         let mut bearing = Bearing::new(self, clearance);
-        let most = by_direction.iter().fold(0.0_f64, |most, depth| most.max((factor * depth).abs()));
-        let pieces = (most / (PIECE * bearing.segment)).ceil().clamp(1.0, MOST_PIECES);
-        let amounts: Vec<f64> = by_direction.iter().map(|depth| factor * depth / pieces).collect();
-        for _ in 0..pieces as usize {
+        let mut left = 1.0;
+        while left > 0.0 {
             bearing.begin(&self.depths);
-            for (direction, amount) in amounts.iter().enumerate().filter(|(_, amount)| **amount != 0.0) {
-                bearing.share(direction, *amount);
+            for (direction, depth) in by_direction.iter().enumerate().filter(|(_, depth)| **depth != 0.0) {
+                bearing.share(direction, factor * depth);
             }
-            self.depths.iter_mut().enumerate().for_each(|(bin, depth)| *depth += bearing.gained(bin));
+            let part = bearing.piece(left);
+            self.depths.iter_mut().enumerate().for_each(|(bin, depth)| *depth += part * bearing.gained(bin));
+            left -= part;
         }
         true
     }
@@ -53,69 +56,107 @@ struct Bearing {
     segment: f64,
     /// Over how far [m] beyond the nearest place others have a share: one over it.
     per_shared: f64,
-    /// 1/cos of the angles between a direction and the bins within a quarter turn of it.
-    inverse_cosines: Vec<f64>,
+    /// Bins within a quarter turn to one side of a direction.
+    quarter: usize,
     /// Clearance with the depth of every bin [m].
     gaps: Vec<f64>,
-    /// How far the journal's centre gets in a direction until it touches in each of the bins near it [m].
-    reaches: Vec<f64>,
-    /// What each of them has of the wear in that direction, and what bins have gained [m].
-    weights: Vec<f64>,
+    /// Of the bins within a quarter turn of a direction.
+    near: Vec<Near>,
+    /// What bins have gained [m].
     gains: Vec<f64>,
+}
+
+/// Bins one after the other, four at a time, so that compilers use vectors.
+#[derive(Clone, Copy)]
+struct Near {
+    /// 1/cos of the angles between them and the direction; infinite where they are farther than a quarter turn.
+    inverse_cosines: [f64; LANES],
+    /// How far the journal's centre gets in the direction until it touches there [m].
+    reaches: [f64; LANES],
+    /// What each of them has of the wear in that direction.
+    weights: [f64; LANES],
 }
 
 impl Bearing {
     fn new(profile: &Profile, clearance: f64) -> Self {
         let (bins, width) = (profile.depths.len(), profile.bin_angle());
         let quarter = (FRAC_PI_2 / width - 1e-9).floor() as usize;
-        let inverse_cosine = |step: usize| 1.0 / libm::cos(step.abs_diff(quarter) as f64 * width);
-        let inverse_cosines: Vec<f64> = (0..=2 * quarter).map(inverse_cosine).collect();
+        let inverse_cosine = |step: usize| {
+            if step > 2 * quarter {
+                return f64::INFINITY;
+            }
+            1.0 / libm::cos(step.abs_diff(quarter) as f64 * width)
+        };
+        let near = |chunk: usize| Near {
+            inverse_cosines: core::array::from_fn(|lane| inverse_cosine(LANES * chunk + lane)),
+            reaches: [f64::INFINITY; LANES],
+            weights: [0.0; LANES],
+        };
         let segment = clearance * (1.0 - libm::cos(width));
         Self {
             clearance,
             bins,
             segment,
             per_shared: 1.0 / (SHARED * segment),
-            gaps: vec![0.0; 2 * bins],
-            reaches: vec![0.0; inverse_cosines.len()],
-            weights: vec![0.0; inverse_cosines.len()],
-            gains: vec![0.0; 2 * bins],
-            inverse_cosines,
+            quarter,
+            // A few more, so that no four are cut short.
+            gaps: vec![0.0; 2 * bins + LANES],
+            near: (0..(2 * quarter + 1).div_ceil(LANES)).map(near).collect(),
+            gains: vec![0.0; 2 * bins + LANES],
         }
     }
 
-    /// Begins a piece of wear at these depths [m].
+    /// Begins wear at these depths [m].
     fn begin(&mut self, depths: &[f64]) {
-        let depths = depths.iter().chain(depths);
+        let depths = depths.iter().cycle();
         self.gaps.iter_mut().zip(depths).for_each(|(gap, depth)| *gap = self.clearance + depth);
         self.gains.fill(0.0);
     }
 
     /// Spreads an amount over the bins that the journal touches when it points in a direction.
     fn share(&mut self, direction: usize, amount: f64) {
-        let first = (direction + self.bins - self.inverse_cosines.len() / 2) % self.bins;
-        for ((reach, gap), inverse) in
-            self.reaches.iter_mut().zip(&self.gaps[first..]).zip(&self.inverse_cosines)
-        {
-            *reach = gap * inverse;
+        let first = (direction + self.bins - self.quarter) % self.bins;
+        let (gaps, _) = self.gaps[first..].as_chunks::<LANES>();
+        let mut least = [f64::INFINITY; LANES];
+        for (near, gaps) in self.near.iter_mut().zip(gaps) {
+            near.reaches = core::array::from_fn(|lane| gaps[lane] * near.inverse_cosines[lane]);
+            least = core::array::from_fn(|lane| nearer(least[lane], near.reaches[lane]));
         }
-        let nearest = self.reaches.iter().copied().fold(f64::INFINITY, f64::min);
+        let nearest = least.into_iter().fold(f64::INFINITY, nearer);
         let mut sum = 0.0;
-        for (weight, reach) in self.weights.iter_mut().zip(&self.reaches) {
-            let below = (nearest - reach) * self.per_shared;
-            *weight = if below > -NOTHING { Scalar::exp(below) } else { 0.0 };
-            sum += *weight;
+        for near in &mut self.near {
+            let below = near.reaches.map(|reach| (nearest - reach) * self.per_shared);
+            // Few places share: no exponential for the others.
+            near.weights = if below.iter().any(|below| *below > -NOTHING) {
+                below.map(|below| f64::select((-NOTHING).lt(below), exp_of_moderate(below), 0.0))
+            } else {
+                [0.0; LANES]
+            };
+            near.weights.iter().for_each(|weight| sum += weight);
         }
         let share = amount / sum;
-        for (gain, weight) in self.gains[first..].iter_mut().zip(&self.weights) {
-            *gain += share * weight;
+        let (gains, _) = self.gains[first..].as_chunks_mut::<LANES>();
+        for (gains, near) in gains.iter_mut().zip(&self.near) {
+            *gains = core::array::from_fn(|lane| gains[lane] + share * near.weights[lane]);
         }
     }
 
-    /// What a bin has gained since the begin of the piece [m].
+    /// How much of what bins would gain is one piece, if this much of the whole is left: pieces that follow are as large, if they may be.
+    fn piece(&self, left: f64) -> f64 {
+        let most = (0..self.bins).fold(0.0_f64, |most, bin| most.max(self.gained(bin).abs()));
+        let pieces = (left * most / (PIECE * self.segment)).ceil().max(1.0).min((left * MOST_PIECES).ceil());
+        left / pieces
+    }
+
+    /// What a bin has gained since the begin [m].
     fn gained(&self, bin: usize) -> f64 {
         self.gains[bin] + self.gains[bin + self.bins]
     }
+}
+
+/// The smaller of two numbers.
+fn nearer(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
 }
 
 #[cfg(test)]

@@ -51,9 +51,10 @@ pub fn cost(cost: &Cost) -> String {
     let time = |measurements: f64| about(cost.seconds(measurements));
     let mut text = format!(
         "full coupling runs the dynamics at every wear step: {} a measurement ({revolutions} revolutions of {}). If all wore as \
-         the first does, the mean path would have {cycles:.0} cycles: {least:.0} to {most:.0} measurements, {} to {}",
+         the first does, the mean path would have {}: {least:.0} to {most:.0} measurements, {} to {}",
         time(1.0),
         about(*seconds_per_revolution),
+        if *cycles < 1.5 { "1 cycle".to_owned() } else { format!("{cycles:.0} cycles") },
         time(*least / together),
         time(*most / together),
     );
