@@ -178,7 +178,8 @@ impl Problem for Vibration {
 fn switched(frequency: f64, tolerance: f64) -> (u64, u64) {
     let mut problem = Vibration { frequency };
     let mut method =
-        Adaptive::<Switching>::start(&mut problem, (0.0, 3.0), &[0.0, 1.0], tolerance, 3.0).expect("smooth");
+        Adaptive::<Switching<true>>::start(&mut problem, (0.0, 3.0), &[0.0, 1.0], tolerance, 3.0)
+            .expect("smooth");
     let mut steps = 0;
     while method.t() < 3.0 {
         method.step(&mut problem, 3.0).expect("smooth");
@@ -265,4 +266,31 @@ fn a_problem_without_value_ends_at_the_edge_with_its_own_reason() {
     let failed = Rk4::new(1).step(&mut Cliff, 0.45, &mut y, 0.1).expect_err("the step ends at 0.55");
     assert!(matches!(failed, RunError::NonFinite { .. }));
     assert_eq!(y, [0.0]);
+}
+
+/// One that dies out a million times faster than the other moves, along its own slow way.
+struct Damped;
+
+impl Problem for Damped {
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), RunError> {
+        (dy[0], dy[1]) = (-1e6 * (y[0] - t.cos()) - t.sin(), -y[1]);
+        Ok(())
+    }
+}
+
+#[test]
+fn what_dies_out_at_once_is_taken_over_by_the_implicit_method() {
+    let mut run = Adaptive::<Switching<false>>::start(&mut Damped, (0.0, 3.0), &[0.0, 1.0], 1e-6, 3.0)
+        .expect("a start");
+    let mut steps = 0;
+    while run.t() < 3.0 {
+        run.step(&mut Damped, 3.0).expect("a step");
+        steps += 1;
+    }
+    // Dormand-Prince alone takes a million.
+    assert!(steps < 400 && run.implicit_steps() > 0, "{steps}, {} implicit", run.implicit_steps());
+    for (found, expected) in run.y().iter().zip([3.0_f64.cos(), (-3.0_f64).exp()]) {
+        // The tolerance, of a few hundred steps.
+        assert!((found - expected).abs() < 1e-5, "{found} {expected}");
+    }
 }

@@ -111,10 +111,14 @@ fn everything<T: Scalar>(x: [T; 11]) -> Vec<T> {
     let memory = ImpactMemory { touching, closing_speed: impact };
     let motion = RevoluteMotion { offset: [ox, oy], offset_rate: [vx, vy], joint_speed: omega };
     // A worn bearing: the gradient leans.
-    let Support { penetration, gradient: [nx, ny], turning } = Support::round(motion.offset, clearance);
+    let Support { penetration, gradient: [nx, ny], turning, .. } = Support::round(motion.offset, clearance);
     let lean = slope / clearance;
-    let support =
-        Support { penetration: penetration - slope, gradient: [nx - lean * ny, ny + lean * nx], turning };
+    let support = Support {
+        penetration: penetration - slope,
+        gradient: [nx - lean * ny, ny + lean * nx],
+        length: None,
+        turning,
+    };
     let flat = RevoluteContact::new(&motion, radius, &support);
     let motion = SphericalMotion {
         offset: [ox, oy, oz],

@@ -86,15 +86,16 @@ pub struct MotionArguments {
     /// Inputs over time: a CSV file with columns `t [s]` and `NAME [UNIT]` for inputs of [inputs]; others keep their defaults.
     #[arg(long, value_name = "FILE.csv")]
     pub inputs: Option<PathBuf>,
-    /// Method [default: dopri5; with clearance rk43; with flexible bodies dopri5 or rodas5p, whichever takes less time; rk4 if --step
+    /// Method [default: dopri5 or rodas5p, whichever takes less time; with clearance rk43; rk4 if --step
     /// is given].
     #[arg(long, value_enum)]
     pub integrator: Option<IntegratorName>,
     /// Step of rk4 and generalized-alpha [s] [default: 1e-4].
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
     pub step: Option<f64>,
-    /// Accuracy of dopri5, relative to every value [default: 1e-9]; with flexible bodies and of rodas5p, relative to their loads, so
-    /// that joint forces have it [default: 1e-7]; of rk43, of the wear integral [default: 1e-6].
+    /// Accuracy of dopri5, relative to every value, but where something is driven absolute below 1 m, rad, m/s or rad/s [default: 1e-9];
+    /// with flexible bodies and of rodas5p, relative to their loads, so that joint forces have it [default: 1e-7]; of rk43, of the wear
+    /// integral, 1e-4 or finer [default: 1e-6].
     #[arg(long, value_name = "E", value_parser = positive)]
     pub tol: Option<f64>,
 }

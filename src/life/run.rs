@@ -15,6 +15,7 @@ use linkwear_runtime::life::{
 };
 use linkwear_runtime::{DynamicsSource, Orbit, RunError, System, Watch};
 
+use super::bins;
 use super::error::{Cause, LifeError};
 use super::journal::LifeJournal;
 use super::mission::Duty;
@@ -291,9 +292,10 @@ impl<'s> Plan<'s> {
         let end = end.map_err(|cause| self.error(cause, &state.cycles))?;
         let name = |joint: usize| &self.settings.joints[joint].joint;
         let warnings = state.warnings.iter();
-        let warnings = warnings
-            .map(|known| format!("{}, cycle {}: {}", name(known.joint), known.cycle, known.warning))
-            .collect();
+        let known =
+            warnings.map(|known| format!("{}, cycle {}: {}", name(known.joint), known.cycle, known.warning));
+        let coarse = self.settings.joints.iter().zip(&state.joints).filter_map(bins::too_coarse);
+        let warnings = known.chain(coarse).collect();
         let by_fit = |process: &Process| process.uncertainty_of_mean_path(end.joint, end.cycles);
         let joints = self.settings.joints.iter().zip(&state.joints);
         let worn = joints.filter_map(|(joint, state)| {

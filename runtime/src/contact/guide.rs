@@ -6,6 +6,7 @@
 
 use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
+use super::normal::NormalForce;
 use super::revolute::{AT_REST, Support};
 use crate::scalar::{Scalar, dot};
 
@@ -29,13 +30,15 @@ pub struct GuideContact<T> {
     pub penetration_rate: T,
     /// Gradient of the penetration: from the bush's centre to the contact, of length one in a round bush.
     pub normal: [T; 2],
-    /// A quarter turn ahead of the normal, of the same length.
+    /// A quarter turn ahead of the normal, of length one.
     pub tangent: [T; 2],
     /// Speed of the rod's surface over the bush's round the axis and along it [m/s].
     pub sliding_velocity: [T; 2],
     /// Its magnitude [m/s].
     pub sliding_speed: T,
     rod_radius: T,
+    /// Length of the normal, if it is not one.
+    length: Option<T>,
 }
 
 impl<T: Scalar> GuideContact<T> {
@@ -45,8 +48,8 @@ impl<T: Scalar> GuideContact<T> {
     /// by t . offset_rate + r omega_z, along it by offset_rate_z - r t . omega.
     #[inline]
     pub fn new(motion: &GuideMotion<T>, rod_radius: T, support: &Support<T>) -> Self {
-        let Support { penetration, gradient: normal, .. } = *support;
-        let tangent = [-normal[1], normal[0]];
+        let Support { penetration, gradient: normal, length, .. } = *support;
+        let tangent = support.tangent();
         let [vx, vy, vz] = motion.offset_rate;
         let [wx, wy, wz] = motion.angular_velocity;
         let sliding_velocity =
@@ -59,6 +62,7 @@ impl<T: Scalar> GuideContact<T> {
             sliding_velocity,
             sliding_speed: dot(sliding_velocity, sliding_velocity).max(T::constant(AT_REST)).sqrt(),
             rod_radius,
+            length,
         }
     }
 
@@ -67,12 +71,13 @@ impl<T: Scalar> GuideContact<T> {
     pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> ContactForce<T> {
         let impact_speed = memory.impact_speed(&laws.normal, self.penetration_rate);
         let normal = laws.normal.evaluate(stiffness, self.penetration, self.penetration_rate, impact_speed);
-        let drag = laws.friction.over_speed(self.sliding_speed) * normal.force;
+        let pressing = self.length.map_or(normal.force, |length| normal.force * length);
+        let drag = laws.friction.over_speed(self.sliding_speed) * pressing;
         let [round, along] = self.sliding_velocity.map(|speed| -(drag * speed));
         let across = |i: usize| round * self.tangent[i] - normal.force * self.normal[i];
         let lever = -(self.rod_radius * along);
         ContactForce {
-            normal,
+            normal: NormalForce { force: pressing, ..normal },
             force: [across(0), across(1), along],
             moment: [lever * self.tangent[0], lever * self.tangent[1], self.rod_radius * round],
             friction_loss: drag * dot(self.sliding_velocity, self.sliding_velocity),
@@ -163,8 +168,9 @@ mod tests {
             let offset = [(1e-5 + p) * cosine, (1e-5 + p) * sine];
             let motion = GuideMotion { offset, offset_rate: rate, angular_velocity: omega };
             // In a corner of a worn bush the gradient is shorter than one.
-            let support =
-                Support { penetration: p, gradient: [gradient * cosine, gradient * sine], turning: None };
+            let support = Support {
+                penetration: p, gradient: [gradient * cosine, gradient * sine], length: Some(gradient), turning: None,
+            };
             let contact = GuideContact::new(&motion, 0.01, &support);
             let out = contact.force(&laws(), K, &ImpactMemory::in_contact(impact));
             let power = dot(out.force, rate) + dot(out.moment, omega);

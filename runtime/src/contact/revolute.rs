@@ -4,6 +4,7 @@
 
 use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
+use super::normal::NormalForce;
 use crate::scalar::{Scalar, dot};
 
 /// Squared distances [m²] below this count as zero: there the direction is taken as the first axis.
@@ -20,6 +21,9 @@ pub struct RevoluteMotion<T> {
     pub joint_speed: T,
 }
 
+/// A gradient shorter than this leads nowhere, and its force is none.
+const NOWHERE: f64 = 1e-20;
+
 /// Squared sliding speeds [m²/s²] below this count as this where sliding has several components: the root has no derivative at zero.
 pub(super) const AT_REST: f64 = 1e-40;
 
@@ -27,13 +31,16 @@ pub(super) const AT_REST: f64 = 1e-40;
 ///
 /// The gradient of a round bearing is the unit vector from its centre to that of the journal. A worn bearing has its
 /// own normals, and in a corner the journal leans on two places at once: their mean is shorter than one. Forces
-/// follow the gradient, so that a worn contact stores and returns energy like a round one.
+/// follow the gradient, so that a worn contact stores and returns energy like a round one. What presses, rubs and wears is their
+/// resultant: how many bins share it is a matter of how finely the bearing is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support<T> {
     /// Penetration, negative while the bodies are apart [m].
     pub penetration: T,
     /// Its gradient by the offset [1].
     pub gradient: [T; 2],
+    /// Length of the gradient; nothing if it is one, as in a round bearing.
+    pub length: Option<T>,
     /// Its derivative by the angle of a journal that is not round [m/rad]; nothing of a round one.
     pub turning: Option<T>,
 }
@@ -43,7 +50,17 @@ impl<T: Scalar> Support<T> {
     #[inline]
     pub fn round(offset: [T; 2], clearance: T) -> Self {
         let (distance, normal) = direction(offset);
-        Self { penetration: distance - clearance, gradient: normal, turning: None }
+        Self { penetration: distance - clearance, gradient: normal, length: None, turning: None }
+    }
+
+    /// A quarter turn ahead of the gradient, of length one.
+    #[inline]
+    pub(super) fn tangent(&self) -> [T; 2] {
+        let [x, y] = self.gradient;
+        let one = |component: T| {
+            self.length.map_or(component, |length| component / length.max(T::constant(NOWHERE)))
+        };
+        [one(-y), one(x)]
     }
 }
 
@@ -56,11 +73,13 @@ pub struct RevoluteContact<T> {
     pub penetration_rate: T,
     /// Gradient of the penetration: from the bearing's centre to the contact, of length one in a round bearing.
     pub normal: [T; 2],
-    /// A quarter turn ahead of the normal, of the same length.
+    /// A quarter turn ahead of the normal, of length one.
     pub tangent: [T; 2],
     /// Speed of the journal's surface over the bearing's along the tangent [m/s].
     pub sliding_speed: T,
     journal_radius: T,
+    /// Length of the normal, if it is not one.
+    length: Option<T>,
     /// Derivative of the penetration by the journal's angle [m/rad].
     turning: Option<T>,
 }
@@ -92,8 +111,8 @@ impl<T: Scalar> RevoluteContact<T> {
     /// the other way round, bearing minus journal, which is right only for forces on the bearing.
     #[inline]
     pub fn new(motion: &RevoluteMotion<T>, journal_radius: T, support: &Support<T>) -> Self {
-        let Support { penetration, gradient: normal, turning } = *support;
-        let tangent = [-normal[1], normal[0]];
+        let Support { penetration, gradient: normal, length, turning } = *support;
+        let tangent = support.tangent();
         let by_offset = dot(normal, motion.offset_rate);
         Self {
             penetration,
@@ -102,6 +121,7 @@ impl<T: Scalar> RevoluteContact<T> {
             tangent,
             sliding_speed: dot(tangent, motion.offset_rate) + journal_radius * motion.joint_speed,
             journal_radius,
+            length,
             turning,
         }
     }
@@ -112,14 +132,15 @@ impl<T: Scalar> RevoluteContact<T> {
     pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> ContactForce<T> {
         let impact_speed = memory.impact_speed(&laws.normal, self.penetration_rate);
         let normal = laws.normal.evaluate(stiffness, self.penetration, self.penetration_rate, impact_speed);
-        let friction_force = laws.friction.signed(self.sliding_speed) * normal.force;
+        let pressing = self.length.map_or(normal.force, |length| normal.force * length);
+        let friction_force = laws.friction.signed(self.sliding_speed) * pressing;
         let force = |i: usize| -(normal.force * self.normal[i] + friction_force * self.tangent[i]);
         let zero = T::constant(0.0);
         let by_friction = -(self.journal_radius * friction_force);
         // What lifts a journal that is not round out of its contact turns it back.
         let moment = self.turning.map_or(by_friction, |slope| by_friction - normal.force * slope);
         ContactForce {
-            normal,
+            normal: NormalForce { force: pressing, ..normal },
             force: [force(0), force(1), zero],
             moment: [zero, zero, moment],
             friction_loss: friction_force * self.sliding_speed,
@@ -210,7 +231,9 @@ mod tests {
 
     /// A wall: the penetration goes with a constant gradient.
     fn wall<T: Scalar>(x: &[T; 9]) -> Support<T> {
-        Support { penetration: x[0] * x[6] + x[1] * x[7] - x[5], gradient: [x[6], x[7]], turning: None }
+        let gradient = [x[6], x[7]];
+        let length = Some(dot(gradient, gradient).sqrt());
+        Support { penetration: dot([x[0], x[1]], gradient) - x[5], gradient, length, turning: None }
     }
 
     /// Inputs as one list: offset, its rate, joint speed, clearance, gradient, impact speed.

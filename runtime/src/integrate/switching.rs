@@ -1,5 +1,8 @@
-//! Dormand-Prince where accuracy limits its steps, Rodas5P where vibrations that nobody asks for would keep them short. In: a
-//! problem that tells its fastest vibration, a step. Out: as of the method that takes it. Never knows mechanisms.
+//! Dormand-Prince where accuracy limits its steps, Rodas5P where vibrations that nobody asks for would keep them short, or what dies out
+//! at once. In: a problem that may tell its fastest vibration, a step. Out: as of the method that takes it. Never knows mechanisms.
+//!
+//! Where modes vibrate they are known beforehand, and Rodas5P begins. Else Dormand-Prince begins, and its own last stages tell how fast
+//! the problem is: stiff dampers and springs, friction that holds.
 //!
 //! A step of Rodas5P takes several times as long. It pays where it is as many times longer than the longest stable one of
 //! Dormand-Prince; and this one's steps are held short by stability where they stay near that length.
@@ -13,6 +16,8 @@ use crate::error::RunError;
 /// Radians of an undamped vibration in a step of Dormand-Prince up to which it does not grow (Hairer, Norsett, Wanner I, II.4: the
 /// interval of the imaginary axis).
 const STABLE: f64 = 1.0;
+/// The same of what dies out without vibrating (the interval of the negative real axis).
+const STABLE_DAMPED: f64 = 3.3;
 /// Steps beyond this part of it are held short by stability: their lengths scatter about it, as some fail.
 const HELD: f64 = 0.7;
 /// So many steps more that speak for the other method than against it have it tried: the control of lengths needs some until it has
@@ -24,9 +29,9 @@ const BESIDE: f64 = 1.0 / 3.0;
 /// Multiplications of an evaluation for every component that decides: 25 to 45 for mechanisms with flexible bodies.
 const OPERATIONS: f64 = 25.0;
 
-/// Either method, as it pays.
+/// Either method, as it pays; with modes, or of what has none.
 #[derive(Clone, Debug)]
-pub struct Switching {
+pub struct Switching<const MODES: bool> {
     explicit: Dopri5,
     implicit: Rodas5P,
     /// Whether the next step is Rodas5P's, and the last one was.
@@ -34,13 +39,14 @@ pub struct Switching {
     was_implicit: bool,
     /// Steps that speak for the other method, less those against it.
     against: u32,
-    /// Fastest vibration [rad/s], known from the first step on; steps of Rodas5P beyond so many radians of it pay.
+    /// Fastest vibration [rad/s], known from the first step on, or what the last explicit step told [1/s]; steps of Rodas5P beyond so
+    /// many radians of it pay.
     fastest: f64,
     pays: f64,
     implicit_steps: u64,
 }
 
-impl Switching {
+impl<const MODES: bool> Switching<MODES> {
     /// Evaluations that a step of Rodas5P takes for one of Dormand-Prince, by the number of deciding components.
     fn ratio(deciding: usize) -> f64 {
         let n = deciding as f64;
@@ -51,17 +57,18 @@ impl Switching {
     }
 }
 
-impl Method for Switching {
+impl<const MODES: bool> Method for Switching<MODES> {
     const ORDER: f64 = 5.0;
-    /// Errors are scaled to this by the share of each method.
-    const SHARE: f64 = 1.0;
+    /// Errors are scaled to this by the share of each method. Without modes that of Dormand-Prince, whose steps are to the bit as they
+    /// are alone.
+    const SHARE: f64 = if MODES { 1.0 } else { Dopri5::SHARE };
 
     fn new(dimension: usize) -> Self {
         Self {
             explicit: Dopri5::new(dimension),
             implicit: Rodas5P::new(dimension),
-            is_implicit: true,
-            was_implicit: true,
+            is_implicit: MODES,
+            was_implicit: MODES,
             against: 0,
             fastest: 0.0,
             pays: 0.0,
@@ -70,8 +77,11 @@ impl Method for Switching {
     }
 
     fn begin(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Result<(), RunError> {
-        self.fastest = problem.fastest();
-        self.pays = STABLE * Self::ratio(problem.deciding(y.len()));
+        let stable = if MODES { STABLE } else { STABLE_DAMPED };
+        if MODES {
+            self.fastest = problem.fastest();
+        }
+        self.pays = stable * Self::ratio(problem.deciding(y.len()));
         self.explicit.begin(problem, t, y)?;
         self.implicit.go_on_with(self.explicit.slope());
         Ok(())
@@ -94,28 +104,30 @@ impl Method for Switching {
             self.explicit.attempt(problem, step, (next, error))?;
             Dopri5::SHARE
         };
-        error.iter_mut().for_each(|error| *error /= share);
+        error.iter_mut().for_each(|error| *error /= share / Self::SHARE);
         Ok(())
     }
 
     fn noise(&mut self, problem: &mut dyn Problem, step: Step<'_>, next: &[f64]) -> f64 {
         if self.is_implicit {
-            self.implicit.noise(problem, step, next) / Rodas5P::SHARE
+            self.implicit.noise(problem, step, next) / (Rodas5P::SHARE / Self::SHARE)
         } else {
-            self.explicit.noise(problem, step, next) / Dopri5::SHARE
+            self.explicit.noise(problem, step, next) / (Dopri5::SHARE / Self::SHARE)
         }
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {
         self.was_implicit = self.is_implicit;
-        let turned = self.fastest * step.length;
         let speaks_against = if self.is_implicit {
             self.implicit_steps += 1;
             self.implicit.accept(step, next);
-            turned < self.pays
+            self.fastest * step.length < self.pays
         } else {
+            if !MODES {
+                self.fastest = self.explicit.fastest(next);
+            }
             self.explicit.accept(step, next);
-            turned > HELD * STABLE
+            self.fastest * step.length > HELD * if MODES { STABLE } else { STABLE_DAMPED }
         };
         self.against = if speaks_against { self.against + 1 } else { self.against.saturating_sub(1) };
         if self.against >= PATIENCE {

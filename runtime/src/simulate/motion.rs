@@ -13,6 +13,7 @@ use crate::bundle::{TOTALS, WORKS, is_energy};
 use crate::clearance_joint::ContactState;
 use crate::dynamics::Dynamics;
 use crate::error::RunError;
+use crate::evaluate::Evaluator;
 use crate::ledger::{Energies, sum};
 use crate::linear::{add_scaled, is_finite, largest, replace};
 use crate::projection::{Correction, POSITION_TOLERANCE, Projector};
@@ -23,6 +24,9 @@ use crate::tables::Motion;
 pub const BRANCH_PART: f64 = 0.1;
 /// ...or by this much [rad, m, rad/s, m/s], relative to values above 1.
 pub const JUMP_FLOOR: f64 = 1e-6;
+
+/// Starts smaller than this [m, rad, m/s, rad/s] are rounding of assembly.
+const AT_REST: f64 = 1e-10;
 
 /// Steps from regular states do not end below this regularity: put onto the constraints there, for rounding alone, the direction
 /// that is nearly lost turns the speeds. Of 240 tolerances of the N four-bar with two cells none is then off by more than 4e-9 m;
@@ -106,6 +110,16 @@ pub(super) struct ConstrainedMotion<'a> {
     known_energy: Option<(f64, (f64, f64))>,
     /// Regularity of the last state that counted.
     regularity_reached: f64,
+}
+
+/// The natural size of coordinates and speeds of a mechanism that nothing drives: the largest of its start, below 1 m, rad, m/s, rad/s.
+/// What swings by a micrometre is asked for beside a micrometre. Nothing of what is driven, of bodies that turn freely, and from rest,
+/// where a start tells nothing.
+fn small_motion(evaluator: &Evaluator<'_>, state: &State) -> Option<f64> {
+    let turns_freely = evaluator.layout().free().any(|group| !matches!(group.motion, Motion::Scalar { .. }));
+    let size = largest(&state.q).max(largest(&state.v));
+    let tells = !turns_freely && evaluator.description().drivers.is_empty() && (AT_REST..1.0).contains(&size);
+    tells.then_some(size)
 }
 
 impl<'a> ConstrainedMotion<'a> {
@@ -242,6 +256,9 @@ impl<'a> ConstrainedMotion<'a> {
         self.projector.set_arm(self.arm);
         self.dynamics.passage.projector.set_arm(self.arm);
         if self.contacts == 0 {
+            if let Some(size) = small_motion(&self.dynamics.evaluator, state) {
+                self.scales.fill(size);
+            }
             return;
         }
         self.sizes = motion_sizes(&mut self.dynamics.evaluator, t, state);

@@ -91,9 +91,16 @@ impl Steps {
             }
             Integrator::Switching { tolerance, max_step } => {
                 motion.judge_modes(begin, state);
-                AdaptiveSteps::<Switching>::begin(motion, sampler, state, ((tolerance, max_step), sampled))
+                let has_modes = motion.dynamics.evaluator.description().modes().next().is_some();
+                let begin = if has_modes {
+                    AdaptiveSteps::<Switching<true>>::begin
+                } else {
+                    AdaptiveSteps::<Switching<false>>::begin
+                };
+                begin(motion, sampler, state, ((tolerance, max_step), sampled))
             }
             Integrator::Rk43 { tolerance, max_step } => {
+                let tolerance = Integrator::of_contacts(tolerance);
                 motion.loosen(tolerance);
                 AdaptiveSteps::<Rk43>::begin(motion, sampler, state, ((tolerance, max_step), sampled))
             }

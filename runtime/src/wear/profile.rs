@@ -107,6 +107,15 @@ impl Profile {
         Measure::Maximum.of(&self.depths)
     }
 
+    /// By how much the deepest place may be deeper than the mean of its bin [m], as its neighbours tell: an eighth of
+    /// the second difference, by which a parabola rises within half a bin. Rough where the place is as narrow as a bin.
+    pub fn deeper_within_bin(&self) -> f64 {
+        let (count, most) = (self.depths.len(), self.maximum());
+        let deepest = self.depths.iter().position(|depth| *depth == most).unwrap_or(0);
+        let beside = self.depths[(deepest + 1) % count] + self.depths[(deepest + count - 1) % count];
+        (2.0 * most - beside) / 8.0
+    }
+
     /// Adds `amount` [m rad], the integral of the depth over the angle, around `angle` [rad], spread over
     /// `half_width` [rad] to both sides like the pressure of Hertz (a half ellipse); zero width goes into
     /// one bin, more than half a turn counts as half a turn. Angles count modulo a turn.
@@ -269,6 +278,18 @@ mod tests {
         // In the middle of a bin the depth is that of the bin; at a peak it is level.
         let (depth, slope) = profile.at(profile.middle(2));
         assert!((depth - 6.0).abs() < 1e-14 && slope.abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_place_as_narrow_as_a_bin_may_be_deeper_than_its_bin() {
+        // Alone in its bin: a quarter deeper. A cosine in bins of 5 degrees: (5 degrees)² / 8.
+        assert_eq!(peak(72, 0, 4e-6).deeper_within_bin(), 1e-6);
+        let depth = |bin: u32| 1.0 + (f64::from(bin) * 5.0_f64.to_radians()).cos();
+        let wide = Profile::try_from((0..72).map(depth).collect::<Vec<_>>()).unwrap();
+        let expected = 5.0_f64.to_radians().powi(2) / 8.0;
+        // Of the next order: (5 degrees)² / 12 of it.
+        assert!((wide.deeper_within_bin() / expected - 1.0).abs() < 1e-3);
+        assert_eq!(Profile::unworn(72).unwrap().deeper_within_bin(), 0.0);
     }
 
     #[test]

@@ -17,7 +17,7 @@ use core::f64::consts::PI;
 use super::surfaces::Surfaces;
 use crate::contact::{Support, bearing_angle};
 use crate::elementary::exp_of_moderate;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, dot};
 
 /// The maximum is smoothed over this many bins to both sides of a round bearing: at 0.8 the ripple from the bins is
 /// exp(-2 pi^2 0.8^2) = 3e-6, and what is left in a round bearing is taken off exactly.
@@ -129,9 +129,11 @@ impl Grid {
         let worn = self.smooth(scale, window, window.largest(&worn), &worn);
         let deeper = worn.largest - unworn.largest + scale * libm::log(worn.sum / unworn.sum);
         let turned = |axis: usize| round.gradient[axis] + worn.mean[axis] - unworn.mean[axis];
+        let gradient = [turned(0), turned(1)];
         Support {
             penetration: round.penetration + deeper,
-            gradient: [turned(0), turned(1)],
+            gradient,
+            length: Some(libm::sqrt(dot(gradient, gradient))),
             turning: surfaces.turn().then_some(worn.slope),
         }
     }
@@ -349,6 +351,7 @@ mod tests {
         Support {
             penetration: round.penetration + deep - unworn,
             gradient: [round.gradient[0] + turned(0), round.gradient[1] + turned(1)],
+            length: None,
             turning: worn.turn().then_some(slope),
         }
     }

@@ -11,8 +11,8 @@ use crate::id::JointId;
 use crate::model::{DryFriction, Response};
 
 /// Force below which a bearing counts as unloaded [N]: the square root in its size has no slope at zero. What it
-/// adds is below the rounding of forces that anyone measures.
-const UNLOADED: f64 = 1e-6;
+/// adds is below the weight of a cell, and the braking of a mechanism of micrometres is that of its own load.
+const UNLOADED: f64 = 1e-12;
 
 /// Force or moment of friction along the coordinate [N or N m].
 pub fn dry_friction<'g>(

@@ -74,6 +74,7 @@ impl<'a> Trajectory<'a> {
         (lanes, lane): Place<'_, 'a, N>,
     ) -> Result<bool, RunError> {
         let Integrator::Rk43 { tolerance, max_step } = runner.integrator else { return Ok(false) };
+        let tolerance = Integrator::of_contacts(tolerance);
         let evaluator = &runner.motion.dynamics.evaluator;
         // Steps that end at switches and samples are a lone trajectory's.
         if evaluator.has_switches() || evaluator.has_samplers() {
