@@ -1,4 +1,4 @@
-//! Files and stdout: nothing half-written, no result mixed with another, no panic when the reader of a pipe has gone.
+//! Files, stdout and stderr: nothing half-written, no result mixed with another, no panic when the reader of a pipe has gone.
 
 use std::fmt::Display;
 use std::fs::{self, File, Metadata, OpenOptions};
@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 use thiserror::Error;
+
+/// What stands for a file where stdout could not be written.
+pub(crate) const STDOUT: &str = "stdout";
 
 /// A file or folder could not be written.
 #[derive(Debug, Error)]
@@ -38,11 +41,14 @@ impl WriteError {
 pub fn print(text: &impl Display) -> Result<(), WriteError> {
     let mut out = BufWriter::new(io::stdout().lock());
     match writeln!(out, "{text:#}").and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(WriteError::of(Path::new("stdout"))(error))
-        }
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(WriteError::of(Path::new(STDOUT))(error)),
         _ => Ok(()),
     }
+}
+
+/// Writes a line to stderr, if it can be written: who does not hear of a remark still gets results and exit code.
+pub fn remark(text: &impl Display) {
+    let _ = io::stderr().lock().write_all(format!("{text}\n").as_bytes());
 }
 
 /// Hands stdout to what writes rows. A closed pipe is no failure.
@@ -54,9 +60,7 @@ pub fn write_stdout(
 ) -> Result<(), WriteError> {
     let mut out = BufWriter::new(io::stdout());
     match fill(&mut out).and_then(|()| out.flush()) {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
-            Err(WriteError::of(Path::new("stdout"))(error))
-        }
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(WriteError::of(Path::new(STDOUT))(error)),
         _ => Ok(()),
     }
 }

@@ -6,6 +6,8 @@
 //! A program with a mechanism of its own needs only `linkwear-codegen` as build-dependency and
 //! `linkwear-runtime` as dependency; see the README, "Embedding".
 
+// Stderr that cannot be written ends no program: `files::remark`.
+#![cfg_attr(not(test), warn(clippy::print_stderr))]
 #![deny(
     clippy::unwrap_used,
     clippy::expect_used,

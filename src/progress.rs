@@ -7,6 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use crate::files::remark;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use linkwear_runtime::Watch;
 use signal_hook::consts::{SIGINT, SIGTERM};
@@ -171,7 +172,7 @@ impl Progress {
             bar.set_position(thousandths);
         } else if self.last_line.elapsed() >= BETWEEN_LINES {
             self.last_line = Instant::now();
-            eprintln!("{}", line(self.stage, fraction, self.start.elapsed()));
+            remark(&line(self.stage, fraction, self.start.elapsed()));
         }
         self.calls
     }

@@ -8,7 +8,7 @@ use std::process::ExitCode;
 
 use crate::backend::BackendError;
 use crate::csv_table::CsvError;
-use crate::files::{WriteError, print};
+use crate::files::{STDOUT, WriteError, print, remark};
 use crate::journal::JournalError;
 use crate::life::MergeError;
 use crate::mechanism::LoadError;
@@ -276,7 +276,7 @@ impl Failure {
             Format::Text => {
                 let _ = self.cycles.as_ref().map(|cycles| cycles.print(format));
                 let coloured = colour::wanted().then(|| self.in_colours());
-                eprintln!("{}{}", coloured.as_ref().unwrap_or(&self.text), self.more());
+                remark(&format_args!("{}{}", coloured.as_ref().unwrap_or(&self.text), self.more()));
             }
             Format::Json => {
                 let mut answer = sealed(json!({ "errors": self.errors }), None);
@@ -309,6 +309,9 @@ impl From<Diagnostics> for Failure {
 impl From<WriteError> for Failure {
     fn from(error: WriteError) -> Self {
         let (code, file, help) = match &error {
+            WriteError::System { file, .. } if file == Path::new(STDOUT) => {
+                ("C0003", file, "make room where it goes, or send it elsewhere")
+            }
             WriteError::System { file, .. } => {
                 ("C0003", file, "nothing was changed; give a file in a folder that exists and can be written")
             }

@@ -52,6 +52,9 @@ pub struct Fitted {
 /// Replicates of the bootstrap, of all readings (`all`) and of each group.
 pub type Replicates = BTreeMap<String, Bootstrap>;
 
+/// Fewest replicates: of fewer not one lies beyond each end of an interval of 95 %.
+const FEWEST_REPLICATES: usize = 40;
+
 /// The name of the fit of all readings.
 const ALL: &str = "all";
 
@@ -114,6 +117,9 @@ impl Observed {
 
 /// What is observed: of all units, and of each group that is asked for.
 fn observed(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<(Observed, Vec<Observed>), Failure> {
+    if (1..FEWEST_REPLICATES).contains(&arguments.bootstrap) {
+        return Err(few_replicates(arguments.bootstrap));
+    }
     let groups = groups(arguments, table)?;
     let all: Vec<Reading> = groups.iter().flat_map(|group| group.readings.clone()).collect();
     // All faults of growth at once, not group by group.
@@ -186,6 +192,12 @@ fn observe(arguments: &FitArguments, readings: &[Reading]) -> Result<(Observatio
     Ok((data, last))
 }
 
+fn few_replicates(asked: usize) -> Failure {
+    let message =
+        format!("--bootstrap: of {asked} replicate(s) none lies beyond each end of an interval of 95 %");
+    Failure::usage(message, format!("give {FEWEST_REPLICATES} or more, or leave --bootstrap out"))
+}
+
 /// One unit shows how its own wear scatters; the process is asked about others.
 fn one_unit(arguments: &FitArguments, readings: &[Reading]) -> Failure {
     let row = |reading: Option<&Reading>| reading.map_or(0, |reading| reading.row);
@@ -239,6 +251,9 @@ fn cure(error: FitError, parameters: usize) -> &'static str {
         FitError::NotConverged if parameters <= 2 => "look at the data; try another --process",
         FitError::NoScatter => {
             "no process is needed for wear that follows a line; if the gauge rounds, give its step by --resolution"
+        }
+        FitError::NoGrowth => {
+            "check the column and the sign of wear: the Wiener process lets it fall at times, but fits growth on average alone"
         }
         FitError::ScatterBelowGauge => {
             "read a finer gauge, or at longer intervals; no process is needed for wear that follows a line"

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::files::{WriteError, check_target};
+use crate::files::{WriteError, check_target, remark};
 use crate::mechanism::{Mechanism, located_warnings, read_source};
 use crate::table::is_stdout;
 use linkwear_codegen::input::{Reach, read_text};
@@ -49,9 +49,9 @@ pub fn of_source(
 pub fn print_remarks(mechanism: &Mechanism) {
     print_warnings(&mechanism.warnings);
     if let Some(refusal) = mechanism.refusal() {
-        eprintln!(
+        remark(&format_args!(
             "note: the equations are interpreted, several times slower, with the same results: {refusal}"
-        );
+        ));
     }
 }
 
@@ -63,9 +63,9 @@ pub fn options(input: &Input, rigid: bool) -> Options {
 fn print_warnings(warnings: &Diagnostics) {
     if !warnings.is_empty() {
         if colour::wanted() {
-            eprintln!("{}", warnings.in_colours());
+            remark(&warnings.in_colours());
         } else {
-            eprintln!("{warnings}");
+            remark(warnings);
         }
     }
 }

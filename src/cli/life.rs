@@ -10,7 +10,7 @@ mod told;
 
 use std::path::Path;
 
-use crate::files::claim_folder;
+use crate::files::{claim_folder, remark};
 use crate::life::{
     Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, MissionChoice, Trajectories, merge,
 };
@@ -42,7 +42,7 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let cost = watched("first turn", |watch| study.cost(watch))
         .map_err(|error| failed(&arguments.input.file, error, kept.as_ref()))?;
     if let Some(cost) = cost {
-        eprintln!("{}", output::cost(&cost));
+        remark(&output::cost(&cost));
     }
     let lived = watched("table", |watch| match &journal {
         Some(journal) => study.run_kept(journal, watch),
@@ -51,7 +51,7 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     let mut life = lived.map_err(|error| failed(&arguments.input.file, error, kept.as_ref()))?;
     life.warnings.extend(warnings);
     if let Some(note) = life.thread_note.take() {
-        eprintln!("warning: {note}");
+        remark(&format_args!("warning: {note}"));
     }
     let facts = LifeFacts::new(&study, life.coupling);
     let answer = output::answer(&facts, &life);

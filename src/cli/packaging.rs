@@ -4,7 +4,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::Path;
 
-use crate::files::{WriteError, write_whole};
+use crate::files::{STDOUT, WriteError, write_whole};
 use clap::{Command, CommandFactory};
 use clap_mangen::Man;
 
@@ -46,7 +46,7 @@ fn shown(root: &Command) -> impl Iterator<Item = &Command> {
 
 fn page(command: &Command) -> Result<Vec<u8>, Failure> {
     let mut page = Vec::new();
-    Man::new(command.clone()).render(&mut page).map_err(WriteError::of(Path::new("stdout")))?;
+    Man::new(command.clone()).render(&mut page).map_err(WriteError::of(Path::new(STDOUT)))?;
     Ok(page)
 }
 

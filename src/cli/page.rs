@@ -22,7 +22,7 @@ use super::options::{EquationsChoice, Input, LengthArguments, MotionArguments, R
 use super::picture::{self, may_write};
 use super::simulate::{self, Simulation};
 use super::table::duration;
-use crate::files::write_whole;
+use crate::files::{remark, write_whole};
 use crate::life::{Cause, LifeFacts, LifeStudy};
 use crate::mechanism::{Mechanism, read_source};
 use crate::page::document::Page;
@@ -93,14 +93,14 @@ fn lived(arguments: &ReportArguments, mechanism: &Mechanism, ear: Ear<'_>) -> Re
         if let Some(cost) = study.cost(ear.watch)?
             && ear.remarks
         {
-            eprintln!("{}", life::output::cost(&cost));
+            remark(&life::output::cost(&cost));
         }
         study.run_watched(ear.watch)
     };
     let mut result = match run() {
         Err(error) if matches!(*error.cause, Cause::NoTurns) => {
             if ear.remarks {
-                eprintln!("warning: no life in the page: {error}");
+                remark(&format_args!("warning: no life in the page: {error}"));
             }
             return Ok(None);
         }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::csv_table::CsvTable;
+use crate::files::remark;
 use crate::inputs::read_inputs;
 use crate::mechanism::Mechanism;
 use crate::number::number;
@@ -31,6 +32,8 @@ use super::picture;
 use super::summary;
 use super::table::{count, duration, plural, table};
 
+/// Steps that differ by less than this part of themselves are the same but for rounding.
+const SAME_STEP: f64 = 1e-9;
 /// Step of the fixed-step methods unless one is given [s].
 const DEFAULT_STEP: f64 = 1e-4;
 /// How long runs are of what has no turns, unless it is given [s].
@@ -64,7 +67,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let provenance = asked.provenance();
     out.map_or(Ok(()), |out| write_table(out, &run.table(), Some(&provenance)))?;
     if out.is_some_and(is_stdout) {
-        run.warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+        run.warnings.iter().for_each(|warning| remark(&format_args!("warning: {warning}")));
         return Ok(Answer::new(String::new(), Value::Null, None));
     }
     let text = to_text(out, &mechanism, &run, &settings, wall_seconds);
@@ -131,7 +134,9 @@ impl<'a> Simulation<'a> {
         let (turns, time) = (arguments.length.turns, arguments.length.time);
         match self.simulated(watch) {
             Err(RunError::TurnsNotReached { .. }) if turns.is_none() && time.is_none() => {
-                eprintln!("warning: the driver does not get round; what is shown are {UNDRIVEN} s");
+                remark(&format_args!(
+                    "warning: the driver does not get round; what is shown are {UNDRIVEN} s"
+                ));
                 self.settings.span = Span::Time(UNDRIVEN);
                 self.run(watch)
             }
@@ -300,7 +305,7 @@ fn to_text(
     };
     let head =
         format!("{}: {length} in {}, {}", description.name, duration(wall_seconds), mechanism.backend());
-    let method = method_of(settings.integrator, &run.statistics);
+    let method = method_of(settings.integrator, run);
     let mut text = summary::text(description, run, &head, &method);
     if !run.turns.is_empty() {
         text.push('\n');
@@ -329,8 +334,8 @@ const fn name(integrator: Integrator) -> &'static str {
 }
 
 /// The method with what it was told; where there are two, which of them took the steps.
-fn method_of(integrator: Integrator, statistics: &Statistics) -> String {
-    let Statistics { steps, implicit_steps, .. } = *statistics;
+fn method_of(integrator: Integrator, run: &Run) -> String {
+    let Statistics { steps, implicit_steps, .. } = run.statistics;
     let mut text = match integrator {
         Integrator::Switching { .. } if implicit_steps == 0 => "dopri5".to_owned(),
         Integrator::Switching { .. } if implicit_steps >= steps => "rodas5p".to_owned(),
@@ -338,7 +343,12 @@ fn method_of(integrator: Integrator, statistics: &Statistics) -> String {
         _ => name(integrator).to_owned(),
     };
     if let Some(step) = integrator.step() {
-        text.push_str(&format!(", step {step:e} s"));
+        let longest = longest_step(step, &run.times);
+        text.push_str(&if longest < step * (1.0 - SAME_STEP) {
+            format!(", steps of {} s at most, which end at the samples", number(longest))
+        } else {
+            format!(", step {step:e} s")
+        });
     }
     if let Some(tolerance) = integrator.tolerance() {
         text.push_str(&format!(", tolerance {tolerance:e}"));
@@ -349,9 +359,27 @@ fn method_of(integrator: Integrator, statistics: &Statistics) -> String {
     text
 }
 
+/// The longest step: equal ones lead from sample to sample, no longer than asked for.
+fn longest_step(asked: f64, samples: &[f64]) -> f64 {
+    let step = |pair: &[f64]| {
+        let span = pair[1] - pair[0];
+        span / (span / asked * (1.0 - SAME_STEP)).ceil().max(1.0)
+    };
+    samples.windows(2).map(step).reduce(f64::max).unwrap_or(asked)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn steps_are_told_as_long_as_samples_let_them_be() {
+        let samples: Vec<f64> = (0..=200).map(|at| f64::from(at) * 5e-4).collect();
+        for (asked, longest) in [(10.0, 5e-4), (3e-4, 2.5e-4), (1e-4, 1e-4)] {
+            assert!((longest_step(asked, &samples) - longest).abs() < 1e-12, "{asked}");
+        }
+        assert_eq!(longest_step(0.1, &[0.0]), 0.1);
+    }
 
     #[test]
     fn rows_of_an_incomplete_run_go_beside_the_file() {

@@ -6,6 +6,7 @@ pub mod output;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
+use crate::files::remark;
 use crate::mechanism::read_source;
 use crate::progress::watched;
 use crate::study::{
@@ -79,7 +80,7 @@ fn finished(result: &StudyResult, (file, out): (Option<&Path>, Option<&Path>)) -
     if let Some(out) = out {
         write_table(out, &result.table(), Some(&result.facts.provenance))?;
         if is_stdout(out) {
-            eprint!("{}", output::remarks(result));
+            output::remarks(result).lines().for_each(|line| remark(&line));
             return Ok(Answer::new(String::new(), Value::Null, None));
         }
         answer.text.push_str(&output::written(result, out));
@@ -102,7 +103,7 @@ pub fn asked<T>(
     let simulation = Simulation::new(&arguments.input.file, &arguments.motion, mechanism)?;
     let steps = (arguments.motion.step, arguments.motion.tol);
     let (life, warnings) = life::lives(&arguments.lives, steps, mechanism)?;
-    warnings.iter().for_each(|warning| eprintln!("warning: {warning}"));
+    warnings.iter().for_each(|warning| remark(&format_args!("warning: {warning}")));
     run(&Study {
         cases: &cases,
         points: &points,

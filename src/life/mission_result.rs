@@ -32,7 +32,8 @@ pub struct SegmentResult {
     pub seconds_per_revolution: Option<f64>,
     /// Share of the wear of each joint on the mean path.
     pub wear: Vec<f64>,
-    /// The mean path's life if the machine ran in this segment only; nothing where the mission's life does not tell it.
+    /// The mean path's life if the machine ran in this segment only; nothing where the mission's life does not tell it: with
+    /// `profile = true`, and where another joint would fail first, further on than that life has gone.
     pub alone: Option<AloneResult>,
 }
 

@@ -102,3 +102,28 @@ fn a_fit_of_another_format_is_refused_by_its_readers() {
         assert!(error["message"].as_str().expect("a text").contains("reads fits of format 1"), "{error}");
     }
 }
+
+#[test]
+fn wear_that_does_not_grow_and_wear_on_a_line_are_told_apart() {
+    let falls = b"unit,h,w\na,1,4\na,2,2\na,3,1\nb,1,1\nb,2,-2.5\n";
+    let (text, _) = refused(falls, &["--process", "wiener"]);
+    assert!(text.contains("does not grow on average") && text.contains("sign of wear"), "{text}");
+    let line = b"unit,h,w\na,0,0\na,1,1\na,2,2\nb,0,0\nb,1,1\nb,2,2\n";
+    // Processes have other parameters than alpha.
+    for process in ["gamma", "wiener", "inverse-gaussian"] {
+        let (text, _) = refused(line, &["--process", process]);
+        assert!(text.contains("without any scatter") && !text.contains("alpha"), "{process}: {text}");
+    }
+}
+
+#[test]
+fn so_few_replicates_that_no_interval_follows_are_refused_before_the_fit() {
+    // No fit of these readings is made.
+    let line = b"unit,h,w\na,0,0\na,1,1\na,2,2\nb,0,0\nb,1,1\nb,2,2\n";
+    for few in ["1", "39"] {
+        let answer = fit(line, &["--bootstrap", few]);
+        assert_eq!((answer.code, answer.errors()[0]["code"].as_str()), (2, Some("C0001")));
+        assert!(answer.out.contains("give 40 or more"), "{}", answer.out);
+    }
+    assert_eq!(fit(GOOD.as_bytes(), &["--bootstrap", "40"]).code, 0);
+}

@@ -63,6 +63,19 @@ fn a_few_lives_have_wide_intervals_and_every_life_a_time() {
 }
 
 #[test]
+fn two_lives_do_not_tell_how_far_their_scatter_is_off() {
+    let two = life(&["--settle", "1", "--trajectories", "2"]);
+    let errors = &two["standard_errors"];
+    assert_eq!((&errors["std"], &errors["cov"]["standard_error"]), (&Value::Null, &Value::Null));
+    assert!(number(&errors["mean"]) > 0.0 && number(&errors["cov"]["value"]) > 0.0, "{errors}");
+    let text = linkwear(&["life", RSSR, "--step", "5e-5", "--settle", "1", "--trajectories", "2"]).out;
+    let row = |name: &str| text.lines().find(|line| line.contains(name)).expect("a row").to_owned();
+    for name in ["standard deviation", "coefficient of variation"] {
+        assert!(row(name).contains("+- ?"), "{}", row(name));
+    }
+}
+
+#[test]
 fn a_drive_of_uneven_turns_has_a_life_without_hours() {
     let folder = crate::command::Folder::new("life-uneven");
     let text = std::fs::read_to_string(RSSR).expect("the case study");
@@ -93,6 +106,9 @@ fn a_life_by_the_dynamics_says_before_it_begins_what_it_costs_and_what_a_table_w
     ] {
         assert!(full.err.contains(said), "{said}: {}", full.err);
     }
+    let short =
+        linkwear(&[&["life", RSSR, "--coupling", "full"], &hurry[..], &["--set", "W_crit=.5 um"]].concat());
+    assert!(short.err.contains("would have less than a cycle: "), "{}", short.err);
     let profile = linkwear(&[&["life", &worn], &hurry[..]].concat());
     assert!(profile.err.contains("has no table. Without `profile = true`"), "{}", profile.err);
     let table = linkwear(&[&["life", RSSR], &hurry[..]].concat());

@@ -243,8 +243,28 @@ fn a_dash_is_stdout_with_the_rows_and_nothing_else() {
         head.status.success() && head.stderr.is_empty() && head.stdout.starts_with(b"t [s],"),
         "{head:?}"
     );
-    let full = shell(&format!("\"$0\" simulate {PENDULUM} --out - > /dev/full"));
-    assert_eq!(full.status.code(), Some(1));
+    for line in ["--out -", "--time 0.1"] {
+        let full = shell(&format!("\"$0\" simulate {PENDULUM} {line} > /dev/full"));
+        let said = String::from_utf8_lossy(&full.stderr);
+        assert_eq!(full.status.code(), Some(1), "{said}");
+        assert!(said.contains("cannot write `stdout`") && said.contains("make room"), "{said}");
+        assert!(!said.contains("folder"), "{said}");
+    }
+}
+
+#[test]
+fn a_stderr_that_cannot_be_written_changes_no_exit_code_and_no_result() {
+    let folder = Folder::new("stderr");
+    let empty = folder.write("empty.csv", "");
+    let fit = format!("\"$0\" fit {empty} --unit u --wear w --exposure h 2> /dev/full");
+    assert_eq!(shell(&fit).status.code(), Some(1));
+    // A driver that does not get round is a warning.
+    let text = fs::read_to_string("mechanisms/four_bar.toml").expect("a mechanism");
+    let rocking = folder.write("rocking.toml", &text.replace("2*pi*speed*t", "0.3*sin(2*pi*speed*t)"));
+    let picture = folder.path("picture.svg");
+    let draw = shell(&format!("\"$0\" draw {rocking} -o {picture} 2> /dev/full"));
+    assert_eq!(draw.status.code(), Some(0), "{draw:?}");
+    assert!(folder.read("picture.svg").starts_with("<svg"));
 }
 
 #[test]

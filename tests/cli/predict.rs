@@ -61,6 +61,17 @@ fn lasers_have_the_published_quantiles_and_band() {
 }
 
 #[test]
+fn huge_times_have_an_exponent_in_tables() {
+    let folder = Folder::new("predict-huge");
+    let text =
+        linkwear(&["predict", &lasers(&folder), "--threshold", "1e300", "--reliability-at", "1e299"]).out;
+    let row = text.lines().find(|line| line.contains("B50")).expect("a row");
+    assert!(row.contains("4.908779e299"), "{row}");
+    let longest = text.lines().filter(|line| !line.starts_with("warning")).map(str::len).max();
+    assert!(longest.is_some_and(|longest| longest < 100), "{text}");
+}
+
+#[test]
 fn a_worn_unit_counts_from_now_and_in_the_time_asked_for() {
     let folder = Folder::new("predict-worn");
     let fit = lasers(&folder);

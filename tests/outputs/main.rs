@@ -253,7 +253,7 @@ fn fits_and_predictions_are_as_told() {
     let fit = ["fit", &data, "--unit", "unit", "--wear", "um", "--exposure", "hours", "--from-zero"];
     let file = folder.path("fit.json");
     for process in ["gamma", "inverse-gaussian", "wiener"] {
-        for more in [&[][..], &["--power-law"], &["--compare"], &["--bootstrap", "5", "--groups", "kind"]] {
+        for more in [&[][..], &["--power-law"], &["--compare"], &["--bootstrap", "40", "--groups", "kind"]] {
             asked(&[&fit[..], &["--process", process, "--out", &file], more].concat());
             held("fit-file", &serde_json::from_str(&folder.read("fit.json")).expect("JSON"), process);
         }

@@ -6,9 +6,14 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FitError {
-    /// Wear is an exact function of Lambda: alpha has no finite maximum.
-    #[error("wear follows Lambda without any scatter, so alpha has no finite estimate")]
+    /// Wear is an exact function of Lambda: the likelihood grows without end as the scatter vanishes.
+    #[error("wear follows Lambda without any scatter, so the scatter of the process has no estimate")]
     NoScatter,
+    /// Wear that may fall does not grow on average: the drift has no estimate above 0.
+    #[error(
+        "wear does not grow on average: its increments sum to 0 or less, so the drift has no estimate above 0"
+    )]
+    NoGrowth,
     /// Less scatter than a gauge that rounds can tell from none.
     #[error(
         "the gauge rounds so coarsely that wear cannot be told from wear without scatter, so alpha has no finite estimate"

@@ -66,6 +66,9 @@ fn found(increments: &[Increment], model: &Model, near: Option<&[f64]>) -> Resul
         return Err(FitError::TooFewExact { increments: exact });
     }
     takes(model, increments)?;
+    if !model.process.is_increasing() && !grows(increments) {
+        return Err(FitError::NoGrowth);
+    }
     if let Some(Rounding { step, error }) = model.resolution {
         let is_positive = step > 0.0 && step.is_finite() && error >= 0.0 && error.is_finite();
         if !is_positive {
@@ -91,6 +94,14 @@ fn found(increments: &[Increment], model: &Model, near: Option<&[f64]>) -> Resul
     let covariance = Factor::definite(&point.information).and_then(|factor| factor.inverse());
     let covariance = covariance.ok_or_else(|| unbounded(model, increments, &phi))?;
     Ok(Fit { model: *model, phi, covariance, log_likelihood: point.value, increments: count })
+}
+
+/// Whether wear grows on average, beyond what rounding leaves of a sum of 0. The exponent and the powers of covariates of exposure
+/// do not change the sign of the drift.
+fn grows(increments: &[Increment]) -> bool {
+    let wears = || increments.iter().filter(|one| one.is_growth()).map(|one| one.wear);
+    let size: f64 = wears().map(f64::abs).sum();
+    wears().sum::<f64>() > increments.len() as f64 * f64::EPSILON * size
 }
 
 /// Refuses increments whose likelihood the model does not have.

@@ -100,6 +100,32 @@ fn lasers_are_no_wiener_process_but_perhaps_an_inverse_gaussian_one() {
 }
 
 #[test]
+fn wear_that_does_not_grow_on_average_has_no_drift() {
+    // Two units of five readings whose increments sum to nothing, to less, and to what rounding leaves of nothing.
+    let sums_to = |last: f64| {
+        let wears = [[0.0, 0.1, 0.3, 0.2, 0.6], [0.0, -0.2, 0.1, -0.4, last]];
+        let reading = |unit: usize, at: usize| Reading {
+            unit: unit.to_string(),
+            exposure: at as f64,
+            wear: wears[unit][at],
+            row: 5 * unit + at + 1,
+            ..Reading::default()
+        };
+        let all: Vec<Reading> = (0..10).map(|at| reading(at / 5, at % 5)).collect();
+        Observations::new(&all, false, Gauge::Noisy).unwrap()
+    };
+    for last in [-0.6, -2.0, -0.6 + 1e-16] {
+        let data = sums_to(last);
+        let wiener = Model { process: &Wiener, ..Model::default() };
+        for model in [wiener, Model { power_law: true, ..wiener }] {
+            assert_eq!(estimate(&data, &model).map(drop), Err(FitError::NoGrowth), "{last}");
+            assert_eq!(estimate_units(&data, &model).map(drop), Err(FitError::NoGrowth), "{last}");
+        }
+    }
+    assert!(estimate(&sums_to(-0.5), &Model { process: &Wiener, ..Model::default() }).is_ok());
+}
+
+#[test]
 fn sliding_wear_slows_down() {
     // The roots of the likelihood equations by mpmath 1.3.0 with 30 digits. A published fit by a search without
     // derivatives prints 27.45829584, 2.59445947, 0.20601998, -51.28126500: it ends 5e-8 away in alpha.

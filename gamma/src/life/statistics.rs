@@ -14,7 +14,7 @@ const TAIL: f64 = 0.025;
 pub struct WithError {
     /// The statistic.
     pub value: f64,
-    /// Its standard error from the finite number of lives.
+    /// Its standard error from the finite number of lives; NaN where they do not tell it.
     pub error: f64,
 }
 
@@ -91,10 +91,14 @@ impl LifeStatistics {
         student_bound(self.count() - 1, 1.0 - 2.0 * TAIL) * self.mean().error
     }
 
-    /// Standard deviation (divisor n - 1); standard error sqrt((m4 - m2²) / n) / (2 s), the delta method.
+    /// Standard deviation (divisor n - 1); standard error sqrt((m4 - m2²) / n) / (2 s), the delta method. Of two lives m4 is m2²,
+    /// whatever they are: they do not tell it.
     pub fn std(&self) -> WithError {
         let [m2, _, m4] = self.central;
         let deviation = self.deviation();
+        if self.count() == 2 {
+            return WithError { value: deviation, error: f64::NAN };
+        }
         let error = ((m4 - m2 * m2).max(0.0) / self.count() as f64).sqrt() / (2.0 * deviation);
         WithError { value: deviation, error: if deviation > 0.0 { error } else { 0.0 } }
     }
@@ -114,10 +118,13 @@ impl LifeStatistics {
     }
 
     /// Coefficient of variation s / mean; standard error by the delta method with the third and fourth moments:
-    /// var(c) = c² [ (m4/m2² - 1)/4 - m3/(m2 mean) + m2/mean² ] / n.
+    /// var(c) = c² [ (m4/m2² - 1)/4 - m3/(m2 mean) + m2/mean² ] / n. Two lives do not tell it, as that of [`Self::std`].
     pub fn cov(&self) -> WithError {
         let [m2, m3, m4] = self.central;
         let value = self.deviation() / self.mean;
+        if self.count() == 2 {
+            return WithError { value, error: f64::NAN };
+        }
         if m2 == 0.0 {
             return WithError { value, error: 0.0 };
         }
@@ -200,6 +207,17 @@ mod tests {
         assert!((lives.std().value - (5.0_f64 / 3.0).sqrt()).abs() < 1e-15);
         assert_eq!(lives.quantile(0.5).expect("valid").value, 2.5);
         assert_eq!(lives.reliability(2.0).value, 0.5);
+    }
+
+    #[test]
+    fn two_lives_do_not_tell_how_far_their_scatter_is_off() {
+        for pair in [[20.0, 21.0], [7.0, 7.0]] {
+            let lives = LifeStatistics::of(&pair).expect("valid");
+            assert!(lives.std().error.is_nan() && lives.cov().error.is_nan(), "{pair:?}");
+            assert!(lives.std().value >= 0.0 && lives.mean().error >= 0.0, "{pair:?}");
+        }
+        let three = LifeStatistics::of(&[20.0, 21.0, 23.0]).expect("valid");
+        assert!(three.std().error > 0.0 && three.cov().error > 0.0);
     }
 
     #[test]

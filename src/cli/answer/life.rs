@@ -211,7 +211,8 @@ pub struct SegmentAnswer<'a> {
     /// Share of the wear of each joint, along the mean path.
     #[cfg_attr(test, schemars(with = "Numbers"))]
     pub wear_shares: Map<String, Value>,
-    /// The mean path's life if the machine ran in this segment only; null where the mission's life does not tell it.
+    /// The mean path's life if the machine ran in this segment only; null where the mission's life does not tell it: with
+    /// `profile = true`, and where another joint would fail first, further on than that life has gone.
     pub alone: Option<AloneAnswer<'a>>,
 }
 
@@ -258,8 +259,8 @@ pub struct ScatterAnswer {
 pub struct StandardErrors {
     /// Of the mean [cycles].
     pub mean: f64,
-    /// Of the standard deviation [cycles].
-    pub std: f64,
+    /// Of the standard deviation [cycles]; null for two lives, which do not tell it.
+    pub std: Option<f64>,
     /// The coefficient of variation with its own.
     pub cov: Measured,
     /// Of the quantiles [cycles]; null for too few lives.
@@ -272,8 +273,8 @@ pub struct StandardErrors {
 pub struct Measured {
     /// The value.
     pub value: f64,
-    /// Its standard error.
-    pub standard_error: f64,
+    /// Its standard error; null for two lives, which do not tell it.
+    pub standard_error: Option<f64>,
 }
 
 /// Intervals of the lives' statistics.
@@ -396,9 +397,14 @@ impl Duration {
     }
 }
 
+/// An error that the lives tell.
+pub fn known(error: f64) -> Option<f64> {
+    (!error.is_nan()).then_some(error)
+}
+
 impl From<WithError> for Measured {
     fn from(found: WithError) -> Self {
-        Self { value: found.value, standard_error: found.error }
+        Self { value: found.value, standard_error: known(found.error) }
     }
 }
 

@@ -11,7 +11,7 @@ use linkwear_runtime::life::{CycleJoint, CycleRecord};
 use serde_json::json;
 
 use super::super::answer::Answer;
-use super::super::answer::life::{CycleAnswer, ShardAnswer};
+use super::super::answer::life::{CycleAnswer, ShardAnswer, known};
 use super::super::table::{count, table};
 use super::hours::hours;
 use super::mission::mission_text;
@@ -54,7 +54,11 @@ pub fn cost(cost: &Cost) -> String {
          the first does, the mean path would have {}: {least:.0} to {most:.0} measurements, {} to {}",
         time(1.0),
         about(*seconds_per_revolution),
-        if *cycles < 1.5 { "1 cycle".to_owned() } else { format!("{cycles:.0} cycles") },
+        match *cycles {
+            ..1.0 => "less than a cycle".to_owned(),
+            1.0..1.5 => "1 cycle".to_owned(),
+            _ => format!("{cycles:.0} cycles"),
+        },
         time(*least / together),
         time(*most / together),
     );
@@ -147,13 +151,14 @@ fn scatter(facts: &LifeFacts, life: &LifeResult, lives: &LifeStatistics) -> Stri
     let time = |cycles: f64| seconds.map_or_else(String::new, |seconds| hours(cycles * seconds));
     let row = |name: &str, digits: usize, found: WithError, [low, high]: [Option<f64>; 2]| {
         let end = |end: Option<f64>| end.map_or_else(|| "?".to_owned(), |end| format!("{end:.digits$}"));
-        let value = format!("{:.digits$} +- {:.digits$}", found.value, found.error);
+        let value = format!("{:.digits$} +- {}", found.value, end(known(found.error)));
         vec![name.to_owned(), value, format!("{} to {}", end(low), end(high)), time(found.value)]
     };
     let quantile =
         |name: &str, p: f64| Some(row(name, 3, lives.quantile(p).ok()?, lives.quantile_interval(p).ok()?));
     let (whole, (low, high)) = (life.mean_whole_cycles(), lives.std_interval());
-    let percent = format!("{:.3} % +- {:.3} %", 100.0 * cov.value, 100.0 * cov.error);
+    let off = known(cov.error).map_or_else(|| "?".to_owned(), |error| format!("{:.3} %", 100.0 * error));
+    let percent = format!("{:.3} % +- {off}", 100.0 * cov.value);
     let half = lives.mean_half_width();
     let rows: Vec<Vec<String>> = [
         Some(row("mean", 3, mean, [-half, half].map(|by| Some(mean.value + by)))),

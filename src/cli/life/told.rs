@@ -9,7 +9,7 @@ use super::super::answer::common::Ends;
 use super::super::answer::life::{
     AloneAnswer, CycleAnswer, Duration, EndedAnswer, HalfWidths, Intervals, JointSpreadAnswer, LifeAnswer,
     LongerAnswer, MeanPathAnswer, MissionAnswer, ProcessAnswer, ScatterAnswer, SegmentAnswer, Sources,
-    SpreadAnswer, StandardErrors, TimeAnswer, WearSpreadAnswer, WornAnswer,
+    SpreadAnswer, StandardErrors, TimeAnswer, WearSpreadAnswer, WornAnswer, known,
 };
 use super::super::failure::remarks;
 use crate::life::{
@@ -132,7 +132,7 @@ fn scatter_of(life: &LifeResult, lives: &LifeStatistics) -> ScatterAnswer {
     ScatterAnswer {
         standard_errors: StandardErrors {
             mean: lives.mean().error,
-            std: lives.std().error,
+            std: known(lives.std().error),
             cov: lives.cov().into(),
             quantiles: PARTS.map(|p| Some(lives.quantile(p).ok()?.error)).into(),
         },

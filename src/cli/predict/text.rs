@@ -8,10 +8,12 @@ use linkwear_gamma::{Answers, Prediction};
 use super::super::calendar::Calendar;
 use super::super::table::table;
 use super::machine::Joints;
-use crate::number::number;
+use crate::number::{decimals, number};
 
 /// Every how many-th time is shown to people.
 const STRIDE: usize = 5;
+/// Decimals of times.
+const DECIMALS: usize = 6;
 
 pub fn to_text(answer: &Prediction, survived: f64, machine: Option<&Joints>, calendar: &Calendar) -> String {
     let after = if survived > 0.0 {
@@ -32,10 +34,10 @@ pub fn to_text(answer: &Prediction, survived: f64, machine: Option<&Joints>, cal
     if let (Some((moments, _)), Some(whole)) = (&answer.moments, &answer.whole) {
         let _ = writeln!(
             text,
-            "standard deviation {:.6}, coefficient of variation {:.5}; in whole units of time: mean {:.4}",
-            moments.std,
+            "standard deviation {}, coefficient of variation {:.5}; in whole units of time: mean {}",
+            decimals(moments.std, DECIMALS),
             moments.cov(),
-            whole.mean
+            decimals(whole.mean, 4)
         );
     }
     text.push_str(&asked(&answer.answers));
@@ -91,7 +93,7 @@ fn lives(usual: &[Band; 3], mean: Option<Band>, answers: &Answers, calendar: &Ca
         .chain(mean.map(|band| ("mean".to_owned(), band)))
         .map(|(name, Band { value, lower, upper })| {
             let mut row = vec![name];
-            row.extend([value, lower, upper].map(|number| format!("{number:.6}")));
+            row.extend([value, lower, upper].map(|time| decimals(time, DECIMALS)));
             if calendar.is_given() {
                 row.push(calendar.told(value));
             }
@@ -116,7 +118,8 @@ fn ends((lower, upper): (f64, f64), kind: &str, calendar: &Calendar) -> String {
     } else {
         String::new()
     };
-    format!("95 % of lives end between {lower:.6} and {upper:.6}{dates} ({kind})")
+    let [lower, upper] = [lower, upper].map(|time| decimals(time, DECIMALS));
+    format!("95 % of lives end between {lower} and {upper}{dates} ({kind})")
 }
 
 fn shares(band: &Band) -> [String; 3] {
@@ -131,7 +134,7 @@ fn asked(answers: &Answers) -> String {
             let mut row = vec![number(at.time)];
             row.extend(shares(&at.reliability));
             row.push(number(at.hazard));
-            row.push(at.rest.map_or_else(|| "-".to_owned(), |rest| format!("{:.6}", rest.value)));
+            row.push(at.rest.map_or_else(|| "-".to_owned(), |rest| decimals(rest.value, DECIMALS)));
             row
         };
         let rows: Vec<Vec<String>> = answers.times.iter().map(row).collect();
