@@ -18,6 +18,7 @@ mod identify;
 mod import;
 mod include;
 mod life;
+mod life_bins;
 mod life_errors;
 mod life_missions;
 #[cfg(feature = "page")]

@@ -99,6 +99,25 @@ fn a_journal_worn_by_angle_keeps_its_energy() {
 }
 
 #[test]
+fn a_journal_in_a_place_that_fits_it_carries_its_load() {
+    // A place as wide as a journal that has worn itself in by twice the clearance, cut into bins of five degrees: the journal lies on
+    // several of them at once.
+    let system = loaded(ContactInfo { wear: wear(Area::Hertz, true), ..smooth() }, steady);
+    let angle = (40.0_f64 / 30.0).atan();
+    let unworn = Profile::unworn(72).expect("bins");
+    let depth = |bin: usize| (3.0 * CLEARANCE * (unworn.middle(bin) - angle).cos() - CLEARANCE).max(0.0);
+    let worn = Profile::try_from((0..72).map(depth).collect::<Vec<_>>()).expect("a profile");
+    let mut runner = runner(&system);
+    runner.set_worn(0, 0.0, Some(worn)).expect("it fits");
+    runner.turns(2, Watch::NONE).expect("it turns");
+    let joint = runner.measure(Watch::NONE).expect("it turns").joints.remove(0);
+    // 50 N; the start still rings by a part of that.
+    assert!((joint.mean_force / 50.0 - 1.0).abs() < 1e-6, "{}", joint.mean_force);
+    // Way times force.
+    assert!((joint.wear_integral / (50.0 * 2.0 * PI * 0.01) - 1.0).abs() < 1e-6, "{}", joint.wear_integral);
+}
+
+#[test]
 fn an_uneven_profile_keeps_the_balance_of_energy() {
     let depths = (0..72).map(|i| 1e-6 * (1.0 + (f64::from(i) * PI / 18.0).sin())).collect::<Vec<_>>();
     let contact = ContactInfo { wear: wear(Area::Hertz, true), friction: coulomb(0.1), ..smooth() };
