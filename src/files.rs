@@ -1,4 +1,4 @@
-//! Files, stdout and stderr: nothing half-written, no result mixed with another, no panic when the reader of a pipe has gone.
+//! Files and stdout: nothing half-written, no result mixed with another, no panic when the reader of a pipe has gone.
 
 use std::fmt::Display;
 use std::fs::{self, File, Metadata, OpenOptions};
@@ -44,11 +44,6 @@ pub fn print(text: &impl Display) -> Result<(), WriteError> {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(WriteError::of(Path::new(STDOUT))(error)),
         _ => Ok(()),
     }
-}
-
-/// Writes a line to stderr, if it can be written: who does not hear of a remark still gets results and exit code.
-pub fn remark(text: &impl Display) {
-    let _ = io::stderr().lock().write_all(format!("{text}\n").as_bytes());
 }
 
 /// Hands stdout to what writes rows. A closed pipe is no failure.

@@ -6,7 +6,7 @@
 //! A program with a mechanism of its own needs only `linkwear-codegen` as build-dependency and
 //! `linkwear-runtime` as dependency; see the README, "Embedding".
 
-// Stderr that cannot be written ends no program: `files::remark`.
+// Stderr that cannot be written ends no program: `remark::remark`.
 #![cfg_attr(not(test), warn(clippy::print_stderr))]
 #![deny(
     clippy::unwrap_used,
@@ -43,6 +43,8 @@ mod parts;
 #[cfg(feature = "cli")]
 pub mod progress;
 pub mod provenance;
+#[cfg(feature = "cli")]
+mod remark;
 pub mod sensitivity;
 pub mod shard;
 pub mod study;

@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::files::remark;
+use crate::remark::remark;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use linkwear_runtime::Watch;
 use signal_hook::consts::{SIGINT, SIGTERM};

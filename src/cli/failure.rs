@@ -8,11 +8,12 @@ use std::process::ExitCode;
 
 use crate::backend::BackendError;
 use crate::csv_table::CsvError;
-use crate::files::{STDOUT, WriteError, print, remark};
+use crate::files::{STDOUT, WriteError, print};
 use crate::journal::JournalError;
 use crate::life::MergeError;
 use crate::mechanism::LoadError;
 use crate::provenance::sealed;
+use crate::remark::remark;
 use crate::study::{LIFE_FAILED, RUN_FAILED};
 use clap::error::ErrorKind;
 use linkwear_codegen::diagnostic::{Diagnostics, nearest};

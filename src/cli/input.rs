@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
-use crate::files::{WriteError, check_target, remark};
+use crate::files::{WriteError, check_target};
 use crate::mechanism::{Mechanism, located_warnings, read_source};
+use crate::remark::remark;
 use crate::table::is_stdout;
 use linkwear_codegen::input::{Reach, read_text};
 use linkwear_codegen::{Compiled, Diagnostics, Options, SourceFile, compile, limits};

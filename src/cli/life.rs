@@ -10,7 +10,7 @@ mod told;
 
 use std::path::Path;
 
-use crate::files::{claim_folder, remark};
+use crate::files::claim_folder;
 use crate::life::{
     Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, MissionChoice, Trajectories, merge,
 };
@@ -19,6 +19,7 @@ use crate::mechanism::Mechanism;
 use crate::page::life_picture;
 use crate::progress::watched;
 use crate::provenance::Provenance;
+use crate::remark::remark;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 
 use self::fits::fits;

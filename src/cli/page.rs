@@ -22,13 +22,14 @@ use super::options::{EquationsChoice, Input, LengthArguments, MotionArguments, R
 use super::picture::{self, may_write};
 use super::simulate::{self, Simulation};
 use super::table::duration;
-use crate::files::{remark, write_whole};
+use crate::files::write_whole;
 use crate::life::{Cause, LifeFacts, LifeStudy};
 use crate::mechanism::{Mechanism, read_source};
 use crate::page::document::Page;
 use crate::page::drawing;
 use crate::progress::watched;
 use crate::provenance::sealed;
+use crate::remark::remark;
 
 /// Rows of the moving picture of a report.
 const ROWS: u32 = 721;

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use crate::csv_table::CsvTable;
-use crate::files::remark;
 use crate::inputs::read_inputs;
 use crate::mechanism::Mechanism;
 use crate::number::number;
@@ -12,6 +11,7 @@ use crate::number::number;
 use crate::page::run_picture;
 use crate::progress::watched;
 use crate::provenance::Provenance;
+use crate::remark::remark;
 use crate::table::{is_stdout, write_table};
 use linkwear_codegen::limits::ROW_NUMBERS;
 use linkwear_runtime::wear::ContactMeasure;

@@ -6,9 +6,9 @@ pub mod output;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-use crate::files::remark;
 use crate::mechanism::read_source;
 use crate::progress::watched;
+use crate::remark::remark;
 use crate::study::{
     Cases, Points, Quantity, Study, StudyError, StudyJournal, StudyPart, StudyResult, listed, merge, named,
 };
