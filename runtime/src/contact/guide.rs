@@ -6,7 +6,6 @@
 
 use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
-use super::normal::NormalForce;
 use super::revolute::{AT_REST, Support};
 use crate::scalar::{Scalar, dot};
 
@@ -71,13 +70,13 @@ impl<T: Scalar> GuideContact<T> {
     pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> ContactForce<T> {
         let impact_speed = memory.impact_speed(&laws.normal, self.penetration_rate);
         let normal = laws.normal.evaluate(stiffness, self.penetration, self.penetration_rate, impact_speed);
-        let pressing = self.length.map_or(normal.force, |length| normal.force * length);
-        let drag = laws.friction.over_speed(self.sliding_speed) * pressing;
+        let pressing = normal.across(self.length);
+        let drag = laws.friction.over_speed(self.sliding_speed) * pressing.force;
         let [round, along] = self.sliding_velocity.map(|speed| -(drag * speed));
         let across = |i: usize| round * self.tangent[i] - normal.force * self.normal[i];
         let lever = -(self.rod_radius * along);
         ContactForce {
-            normal: NormalForce { force: pressing, ..normal },
+            normal: pressing,
             force: [across(0), across(1), along],
             moment: [lever * self.tangent[0], lever * self.tangent[1], self.rod_radius * round],
             friction_loss: drag * dot(self.sliding_velocity, self.sliding_velocity),

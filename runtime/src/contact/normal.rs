@@ -31,6 +31,14 @@ pub struct NormalForce<T> {
     pub damping_loss: T,
 }
 
+impl<T: Scalar> NormalForce<T> {
+    /// The resultant of a force along normals whose mean has this length; the force itself where that is one.
+    #[inline]
+    pub(super) fn across(self, length: Option<T>) -> Self {
+        Self { force: length.map_or(self.force, |length| self.force * length), ..self }
+    }
+}
+
 impl Normal {
     /// A law by its coefficient of restitution, exponent n of the penetration (1.5 for the sphere law)
     /// and floor of the impact speed [m/s] ([`IMPACT_SPEED_FLOOR`]).

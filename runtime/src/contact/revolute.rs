@@ -4,7 +4,6 @@
 
 use super::laws::{ContactForce, Laws};
 use super::memory::ImpactMemory;
-use super::normal::NormalForce;
 use crate::scalar::{Scalar, dot};
 
 /// Squared distances [m²] below this count as zero: there the direction is taken as the first axis.
@@ -132,15 +131,15 @@ impl<T: Scalar> RevoluteContact<T> {
     pub fn force(&self, laws: &Laws, stiffness: T, memory: &ImpactMemory<T>) -> ContactForce<T> {
         let impact_speed = memory.impact_speed(&laws.normal, self.penetration_rate);
         let normal = laws.normal.evaluate(stiffness, self.penetration, self.penetration_rate, impact_speed);
-        let pressing = self.length.map_or(normal.force, |length| normal.force * length);
-        let friction_force = laws.friction.signed(self.sliding_speed) * pressing;
+        let pressing = normal.across(self.length);
+        let friction_force = laws.friction.signed(self.sliding_speed) * pressing.force;
         let force = |i: usize| -(normal.force * self.normal[i] + friction_force * self.tangent[i]);
         let zero = T::constant(0.0);
         let by_friction = -(self.journal_radius * friction_force);
         // What lifts a journal that is not round out of its contact turns it back.
         let moment = self.turning.map_or(by_friction, |slope| by_friction - normal.force * slope);
         ContactForce {
-            normal: NormalForce { force: pressing, ..normal },
+            normal: pressing,
             force: [force(0), force(1), zero],
             moment: [zero, zero, moment],
             friction_loss: friction_force * self.sliding_speed,

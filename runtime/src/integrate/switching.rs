@@ -47,6 +47,14 @@ pub struct Switching<const MODES: bool> {
 }
 
 impl<const MODES: bool> Switching<MODES> {
+    /// Length of a step of Dormand-Prince up to which what is fastest does not grow, by its speed.
+    const STABLE: f64 = if MODES { STABLE } else { STABLE_DAMPED };
+
+    /// Part of the tolerance that errors of the next step may take, of that of both methods.
+    fn share(&self) -> f64 {
+        (if self.is_implicit { Rodas5P::SHARE } else { Dopri5::SHARE }) / Self::SHARE
+    }
+
     /// Evaluations that a step of Rodas5P takes for one of Dormand-Prince, by the number of deciding components.
     fn ratio(deciding: usize) -> f64 {
         let n = deciding as f64;
@@ -77,11 +85,10 @@ impl<const MODES: bool> Method for Switching<MODES> {
     }
 
     fn begin(&mut self, problem: &mut dyn Problem, t: f64, y: &[f64]) -> Result<(), RunError> {
-        let stable = if MODES { STABLE } else { STABLE_DAMPED };
         if MODES {
             self.fastest = problem.fastest();
         }
-        self.pays = stable * Self::ratio(problem.deciding(y.len()));
+        self.pays = Self::STABLE * Self::ratio(problem.deciding(y.len()));
         self.explicit.begin(problem, t, y)?;
         self.implicit.go_on_with(self.explicit.slope());
         Ok(())
@@ -97,23 +104,23 @@ impl<const MODES: bool> Method for Switching<MODES> {
         step: Step<'_>,
         (next, error): (&mut [f64], &mut [f64]),
     ) -> Result<(), RunError> {
-        let share = if self.is_implicit {
+        if self.is_implicit {
             self.implicit.attempt(problem, step, (next, error))?;
-            Rodas5P::SHARE
         } else {
             self.explicit.attempt(problem, step, (next, error))?;
-            Dopri5::SHARE
-        };
-        error.iter_mut().for_each(|error| *error /= share / Self::SHARE);
+        }
+        let share = self.share();
+        error.iter_mut().for_each(|error| *error /= share);
         Ok(())
     }
 
     fn noise(&mut self, problem: &mut dyn Problem, step: Step<'_>, next: &[f64]) -> f64 {
-        if self.is_implicit {
-            self.implicit.noise(problem, step, next) / (Rodas5P::SHARE / Self::SHARE)
+        let noise = if self.is_implicit {
+            self.implicit.noise(problem, step, next)
         } else {
-            self.explicit.noise(problem, step, next) / (Dopri5::SHARE / Self::SHARE)
-        }
+            self.explicit.noise(problem, step, next)
+        };
+        noise / self.share()
     }
 
     fn accept(&mut self, step: Step<'_>, next: &[f64]) {
@@ -127,7 +134,7 @@ impl<const MODES: bool> Method for Switching<MODES> {
                 self.fastest = self.explicit.fastest(next);
             }
             self.explicit.accept(step, next);
-            self.fastest * step.length > HELD * if MODES { STABLE } else { STABLE_DAMPED }
+            self.fastest * step.length > HELD * Self::STABLE
         };
         self.against = if speaks_against { self.against + 1 } else { self.against.saturating_sub(1) };
         if self.against >= PATIENCE {

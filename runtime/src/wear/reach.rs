@@ -23,11 +23,11 @@ use crate::scalar::{Scalar, dot};
 /// exp(-2 pi^2 0.8^2) = 3e-6, and what is left in a round bearing is taken off exactly.
 const SMOOTHED: f64 = 0.8;
 /// exp of less than minus this changes no sum.
-pub(super) const NOTHING: f64 = 40.0;
+const NOTHING: f64 = 40.0;
 /// A distance is found to rounding in fewer steps.
 const MOST_STEPS: usize = 60;
 /// Bins of one pass, so that compilers use vectors.
-const LANES: usize = 4;
+pub(super) const LANES: usize = 4;
 
 /// Directions of the bins of a profile.
 #[derive(Clone, Debug, PartialEq)]
@@ -211,11 +211,7 @@ impl Sums<'_> {
     fn add<const N: usize>(&mut self, place: usize, reaches: &impl Reaches) {
         let (reach, slopes) = reaches.at::<N>(place);
         let above = reach.map(|reach| (reach - self.largest) * self.per_scale);
-        // In a deep place most bins of its window reach too little: no exponential for them.
-        if !above.iter().any(|above| -NOTHING < *above) {
-            return;
-        }
-        let weights = above.map(|above| f64::select((-NOTHING).lt(above), exp_of_moderate(above), 0.0));
+        let Some(weights) = weights(above) else { return };
         let [x, y] = self.grid.normals_at::<N>(place);
         for lane in 0..N {
             let weighed = [1.0, x[lane], y[lane], slopes[lane]];
@@ -224,6 +220,13 @@ impl Sums<'_> {
             }
         }
     }
+}
+
+/// Exponentials of numbers at most 0, those that change no sum as zero; nothing if all are: in a deep place most bins reach too little.
+#[inline(always)]
+pub(super) fn weights<const N: usize>(above: [f64; N]) -> Option<[f64; N]> {
+    let counts = above.iter().any(|above| -NOTHING < *above);
+    counts.then(|| above.map(|above| f64::select((-NOTHING).lt(above), exp_of_moderate(above), 0.0)))
 }
 
 impl Window {

@@ -7,17 +7,13 @@
 use core::f64::consts::FRAC_PI_2;
 
 use super::profile::Profile;
-use super::reach::NOTHING;
-use crate::elementary::exp_of_moderate;
-use crate::scalar::Scalar;
+use super::reach::{LANES, weights};
 
 /// A minimum counts as shared by places this part of the depth of a bin's circular segment above it: small against
 /// the segment, so that an unworn bearing is worn where the journal points.
 const SHARED: f64 = 1.0 / 8.0;
 /// Wear is taken away in pieces that deepen no bin by more than this part of that depth, so that edges go before a hole grows.
 const PIECE: f64 = 0.25;
-/// Bins of one pass.
-const LANES: usize = 4;
 /// Upper limit on the number of pieces of one wear step.
 const MOST_PIECES: f64 = 4096.0;
 
@@ -126,12 +122,7 @@ impl Bearing {
         let mut sum = 0.0;
         for near in &mut self.near {
             let below = near.reaches.map(|reach| (nearest - reach) * self.per_shared);
-            // Few places share: no exponential for the others.
-            near.weights = if below.iter().any(|below| *below > -NOTHING) {
-                below.map(|below| f64::select((-NOTHING).lt(below), exp_of_moderate(below), 0.0))
-            } else {
-                [0.0; LANES]
-            };
+            near.weights = weights(below).unwrap_or([0.0; LANES]);
             near.weights.iter().for_each(|weight| sum += weight);
         }
         let share = amount / sum;
