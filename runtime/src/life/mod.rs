@@ -13,6 +13,7 @@ mod ahead;
 mod along_curves;
 mod asked;
 mod calibrate;
+mod control;
 mod crossing;
 mod curve;
 mod cycle;
@@ -31,6 +32,7 @@ mod table;
 mod worn;
 
 pub use calibrate::{Calibration, CalibrationError, calibrate};
+pub use control::Control;
 pub use cycle::{LifeOutcome, run_life};
 pub use error::LifeError;
 pub use flow::{ERROR as FLOW_ERROR, WearFlow};
@@ -40,6 +42,6 @@ pub use mission::{MissionError, MissionSegment, MissionSource, SegmentsMeasured}
 pub use settings::{LifeSettings, WearStep};
 pub use settings_error::SettingsError;
 pub use source::{JointWear, WearSource, one_by_one};
-pub use state::{Control, CycleJoint, CycleRecord, FailureEvent, JointWarning, LifeState};
+pub use state::{CycleJoint, CycleRecord, FailureEvent, JointWarning, LifeState};
 pub use table::{DEFAULT_POINTS, TableReport, WearTable};
 pub use worn::WearState;

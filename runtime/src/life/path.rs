@@ -5,24 +5,15 @@
 //! the next step, which is what counts when a stage costs revolutions of the dynamics.
 
 use super::asked::{measure, measure_each};
+use super::control::Control;
 use super::curve::Measured;
 use super::error::LifeError;
 use super::interpolate::{at, cubic};
 use super::joint::{Feedback, JointLife};
 use super::settings::{LifeSettings, WearStep};
 use super::source::{JointWear, WearSource};
-use super::state::Control;
 use super::worn::WearState;
 use crate::wear::{ContactMeasure, Profile};
-
-/// The next step is at most so many times longer.
-const LARGEST_GROWTH: f64 = 4.0;
-/// And at least this part of the one refused.
-const LARGEST_CUT: f64 = 0.2;
-/// Part of the step that the error would just allow.
-const SAFETY: f64 = 0.9;
-/// What is left of the known noise after a step: a kink that was taken for noise is forgotten in some ten steps.
-const NOISE_KEPT: f64 = 0.9;
 
 /// Mean increments since the start of a path: per joint the depth [m], then the bins of its profile [m].
 pub(super) type Increments = Vec<f64>;
@@ -191,7 +182,7 @@ impl<F: WearSource> Walker<'_, F> {
         if remembers && self.earlier.len() == rates.len() {
             let (path, ratio) = self.along_curves(&rates, span)?;
             let before = *control;
-            if path.is_finite() && accepts(control, ratio, span as f64, None, (tolerance, shortest)) {
+            if path.is_finite() && control.accepts(ratio, span as f64, None, (tolerance, shortest)) {
                 return Ok(path);
             }
             *control = before;
@@ -205,7 +196,7 @@ impl<F: WearSource> Walker<'_, F> {
             // Equal steps to the end; a hair of slack keeps rounding from adding one.
             let length = left / ((left / control.step.max(shortest) - 1e-9).ceil().max(1.0));
             let trial = self.attempt(&from, &from_rate, length)?;
-            if !accepts(control, trial.ratio, length, refused, (tolerance, shortest)) {
+            if !control.accepts(trial.ratio, length, refused, (tolerance, shortest)) {
                 refused = Some((length, trial.ratio));
                 span = span.min((control.step.floor() as u64).max(1));
                 path.span = span;
@@ -291,30 +282,6 @@ impl<F: WearSource> Walker<'_, F> {
         }
         (per_joint, if gain > 0.0 { error / gain } else { 0.0 })
     }
-}
-
-/// Whether a step of a length is good enough, by its error over its gain and that of a longer one that was refused
-/// before; sets the next step to try.
-fn accepts(
-    control: &mut Control,
-    ratio: f64,
-    length: f64,
-    refused: Option<(f64, f64)>,
-    (tolerance, shortest): (f64, f64),
-) -> bool {
-    // Error over gain goes with the square of the step; what does not shrink even in proportion is noise.
-    if refused.is_some_and(|(before, refused)| ratio > refused * (length / before)) {
-        control.noise = control.noise.max(ratio);
-    }
-    let allowed = tolerance.max(2.0 * control.noise);
-    let factor = SAFETY * libm::sqrt(allowed / ratio.max(f64::MIN_POSITIVE));
-    let accepted = ratio <= allowed || length <= shortest;
-    let factor = if accepted { factor.min(LARGEST_GROWTH) } else { factor.max(LARGEST_CUT) };
-    control.step = (length * factor).max(shortest);
-    if accepted {
-        control.noise *= NOISE_KEPT;
-    }
-    accepted
 }
 
 /// Mean increments per cycle.

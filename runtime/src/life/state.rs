@@ -1,6 +1,7 @@
 //! The state of a trajectory as one value: saved, it goes on with the same bits. In: settings. Out: the state and
 //! the records of cycles. Never knows files or formats.
 
+use super::control::Control;
 use super::curve::Measured;
 use super::settings::LifeSettings;
 use super::settings_error::SettingsError;
@@ -35,16 +36,6 @@ pub struct LifeState<S> {
     pub cycles: Vec<CycleRecord>,
     /// Measurements asked of the fine scale.
     pub measurements: u64,
-}
-
-/// What the step control remembers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-pub struct Control {
-    /// Next step to try, in cycles.
-    pub step: f64,
-    /// Relative error that does not shrink with the step: noise of the fine scale.
-    pub noise: f64,
 }
 
 /// The end of a life.
@@ -146,7 +137,7 @@ impl<S: Default> LifeState<S> {
             fine: S::default(),
             measured: None,
             earlier: Vec::new(),
-            control: Control { step: 1.0, noise: 0.0 },
+            control: Control::new(),
             failure: None,
             warnings: Vec::new(),
             cycles: Vec::new(),
