@@ -1,6 +1,7 @@
 //! Speeds that keep the loops closed, nearest to the wish. In: a closed position. Out: speeds.
 
 use super::held::conflicts;
+use super::state::State;
 use super::units::Units;
 use crate::error::AssemblyError;
 use crate::evaluate::Evaluator;
@@ -41,6 +42,15 @@ pub(super) fn consistent(
         }
     }
     Err(AssemblyError::SpeedsImpossible { joint, residual })
+}
+
+/// The nearest speeds that keep the loops closed, where those of a state do not; nothing if there are none.
+pub(super) fn where_open(evaluator: &mut Evaluator<'_>, t: f64, state: &State) -> Option<Vec<f64>> {
+    let open = largest(evaluator.closure(t, &state.q, &state.v).speeds);
+    if open <= CONSISTENT * largest(&state.v).max(1.0) {
+        return None;
+    }
+    consistent(evaluator, t, &state.q, &state.v).ok()
 }
 
 /// Speeds, kept row with the largest residual left, and that residual in the units given.

@@ -9,6 +9,7 @@
 use super::consistent::assemble_with;
 use super::held::frozen_speeds;
 use super::offset::{offset_columns, offset_places};
+use super::speeds;
 use super::state::State;
 use super::within_clearance::{self, DEEPEST_START};
 use crate::error::{AssemblyError, SetupError};
@@ -115,11 +116,16 @@ pub(crate) fn place_moving(
     let mut placed = state.clone();
     let mut solver = Placing::new(evaluator, targets);
     let fits = solver.close(evaluator, t, &mut placed, targets);
-    if fits {
-        solver.steer(evaluator, t, &mut placed, rates);
-        *state = placed;
+    if !fits {
+        return false;
     }
-    fits
+    solver.steer(evaluator, t, &mut placed, rates);
+    // A guide may hold a journal still whose bearing turns: it moves there as the loops have it.
+    if let Some(v) = speeds::where_open(evaluator, t, &placed) {
+        placed.v = v;
+    }
+    *state = placed;
+    true
 }
 
 /// Contacts whose offset no demanded start value fixes.

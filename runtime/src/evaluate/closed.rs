@@ -43,7 +43,7 @@ impl Evaluator<'_> {
     }
 
     /// The longest lever arm [m] by which a turning speed moves a kept row; 1 m if none does. The size that lengths of
-    /// this mechanism are compared with.
+    /// this mechanism are compared with: at least that of its largest journal, because the offset of a journal is no arm.
     pub fn longest_arm(&mut self, t: f64, q: &[f64], v: &[f64]) -> f64 {
         let description = self.description();
         let linear: Vec<bool> = self.kept().iter().map(|row| !description.rows[*row].angular).collect();
@@ -52,6 +52,9 @@ impl Evaluator<'_> {
         let arms = rows.flat_map(|(row, _)| row.iter().zip(&*description.speeds));
         let arms = arms.filter(|(_, speed)| speed.unit.starts_with("rad"));
         let longest = arms.fold(0.0_f64, |longest, (arm, _)| longest.max(arm.abs()));
-        if longest.is_finite() && longest > DUST { longest } else { 1.0 }
+        if !(longest.is_finite() && longest > DUST) {
+            return 1.0;
+        }
+        self.clearances().joints().iter().fold(longest, |size, joint| size.max(joint.journal_radius()))
     }
 }

@@ -14,6 +14,8 @@ use crate::spec::{At, ClearanceSpec, Dimension, File, Name, Quantity};
 
 /// Speed below which friction is smoothed, unless the file says otherwise [m/s].
 const FRICTION_SPEED: f64 = 1e-3;
+/// Directions that differ by less are drawn alike [rad]: rounding of numbers that a file gives with ten digits.
+const ALIGNED: f64 = 1e-9;
 /// Stribeck speed, unless the file says otherwise [m/s].
 const STRIBECK_SPEED: f64 = 1e-2;
 
@@ -33,14 +35,20 @@ impl Resolver<'_> {
                 continue;
             }
             let tilt = self.tilt(name, written, kind);
+            let hinges = if tilt.is_some() { self.hinges() } else { Vec::new() };
             let model = &mut self.joint_models[id.index()];
             (model.clearance, model.tilt) = (true, tilt);
             if let [axis] = model.axes[..] {
-                // The direction of the offset's first component, as near to e_x as the axis allows.
-                let [parent, child] = [axis.parent, axis.child].map(inertia::any_perpendicular);
-                model.axes.push(Axis { parent, child });
+                model.axes.push(offset_axis(axis, &hinges));
             }
         }
+    }
+
+    /// Axes about which joints turn that are drawn where they are.
+    fn hinges(&self) -> Vec<[f64; 3]> {
+        let turning = self.joint_models.iter().filter(|model| model.turn_about_axis().is_some());
+        let axes = turning.filter_map(|model| model.axes.first());
+        axes.filter(|axis| axis.parent == axis.child).map(|axis| axis.parent).collect()
     }
 
     /// Whether a journal tilts in its clearance, and which side has the ends that touch.
@@ -240,4 +248,24 @@ impl Resolver<'_> {
             );
         }
     }
+}
+
+/// The direction of the offset's first component and of the first tilt, as near to e_x as the axis allows; or along a hinge across it.
+///
+/// Two tilts one after the other turn about one of their axes exactly, about others but for a roll that goes with their product. In
+/// a planar mechanism a guide tilts about the direction of the hinges: were that none of the two axes, its key and its hinges would
+/// hold it against each other.
+fn offset_axis(axis: Axis, hinges: &[[f64; 3]]) -> Axis {
+    let along = |direction: [f64; 3], normal: [f64; 3], angle: (f64, f64)| {
+        let other = inertia::cross(normal, direction);
+        std::array::from_fn(|i| angle.0 * direction[i] + angle.1 * other[i])
+    };
+    let [parent, child] = [axis.parent, axis.child].map(inertia::any_perpendicular);
+    let across = |hinge: &&[f64; 3]| inertia::dot(**hinge, axis.parent).abs() < ALIGNED;
+    let Some(hinge) = hinges.iter().find(across) else { return Axis { parent, child } };
+    let angle = (inertia::dot(*hinge, parent), inertia::dot(*hinge, inertia::cross(axis.parent, parent)));
+    if angle.0.abs().min(angle.1.abs()) < ALIGNED {
+        return Axis { parent, child };
+    }
+    Axis { parent: along(parent, axis.parent, angle), child: along(child, axis.child, angle) }
 }
