@@ -2,7 +2,8 @@
 //! In: time and a state near the constraints. Out: the state on them, and how far it moved.
 //! Never knows integrators; allocates only when made.
 //!
-//! Corrections have minimum norm. Directions in which the rows are nearly singular are left alone as long
+//! Corrections have minimum norm, and leave deflections of flexible bodies alone where anything else can move.
+//! Directions in which the rows are nearly singular are left alone as long
 //! as the residual can be met without them: near a singular position an error of 1e-15 m there would
 //! move the mechanism by far more, perhaps to another branch.
 
@@ -19,6 +20,9 @@ const LOST: f64 = 3e-4;
 /// What is left of [`POSITION_TOLERANCE`] and [`SPEED_TOLERANCE`] there: last places.
 const STRICT: f64 = 1e-2;
 const MAX_ITERATIONS: usize = 25;
+/// Natural size of the motion along a mode at most, as [`Projector::set_sizes`] has it. A deflection holds a force: of a stiff link it is
+/// a micrometre or a nanometre, which an equal share in the correction of a loop of metres would change by far more than itself.
+const MODE: f64 = 1e-6;
 
 /// How far a projection moved the state: largest component of each.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -56,6 +60,8 @@ pub struct Projector {
     scales: Vec<f64>,
     /// Natural size of each free speed's motion: how readily a correction moves it.
     sizes: Vec<f64>,
+    /// The speeds of modes among them.
+    modes: Vec<usize>,
     gram: Cholesky,
     orthogonal: Orthogonal,
     factored: Factored,
@@ -83,7 +89,8 @@ impl Projector {
     /// Storage for the evaluator's mechanism.
     pub fn new(evaluator: &Evaluator<'_>) -> Self {
         let (m, n) = (evaluator.sizes().rows, evaluator.sizes().speeds);
-        Self {
+        let modes = evaluator.description().modes().map(|(_, speed)| speed).collect();
+        let mut projector = Self {
             jacobian: vec![0.0; m * n],
             residual: vec![0.0; m],
             delta: vec![0.0; n],
@@ -98,14 +105,20 @@ impl Projector {
             strictness: 1.0,
             keep_lost: false,
             scales: vec![0.0; m],
-            sizes: vec![1.0; n],
-        }
+            sizes: vec![0.0; n],
+            modes,
+        };
+        projector.set_sizes(&vec![1.0; n]);
+        projector
     }
 
     /// Sets the natural size of each free speed's motion, 1 unless told otherwise: corrections are smallest
     /// relative to it. Micrometres of a clearance stay out of the correction of a loop of metres.
     pub fn set_sizes(&mut self, sizes: &[f64]) {
         self.sizes.copy_from_slice(sizes);
+        for mode in &self.modes {
+            self.sizes[*mode] = self.sizes[*mode].min(MODE);
+        }
     }
 
     /// Sets the longest lever arm [m], which lengths are compared with; 1 m unless told otherwise.

@@ -2,9 +2,16 @@
 //! forces. In: states with their accelerations. Out: sizes of modal coordinates and speeds. Never knows steps.
 
 use crate::evaluate::Evaluator;
+use crate::linear::largest;
 
 /// Width of the difference quotients of stiffnesses, in units of modal coordinates: they are linear in the dynamics.
 const DIFFERENCE: f64 = 1e-6;
+/// Part of their sizes by which deflections are judged that loops stand on. Such a deflection is the force in its loop, and as little as
+/// links are damped it rings for some fifty vibrations, over which errors of the steps add up. What bends between its joints without
+/// moving them only adds its inertia.
+const IN_LOOPS: f64 = 0.05;
+/// Columns of the loops' rows below this part of the largest entry are rounding.
+const NOTHING: f64 = 1e-12;
 
 /// A modal coordinate that nothing prescribes.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +20,8 @@ struct Mode {
     speed: usize,
     /// Acceleration against a deflection of 1, at the start [1/s²].
     stiffness: f64,
+    /// Part of its size by which its errors are judged.
+    share: f64,
 }
 
 /// Modal coordinates of a mechanism, and the largest load on one of them so far.
@@ -30,6 +39,7 @@ impl ModalSizes {
     pub(super) fn new(evaluator: &mut Evaluator<'_>, (t, q, v): (f64, &[f64], &[f64])) -> Self {
         let places: Vec<(usize, usize)> = evaluator.description().modes().collect();
         let mut q = q.to_vec();
+        let shares = shares(evaluator, (t, &q, v));
         let modes = places.into_iter().filter_map(|(coordinate, speed)| {
             let value = q[coordinate];
             let mut at = |value| {
@@ -38,7 +48,8 @@ impl ModalSizes {
             };
             let stiffness = (at(value - DIFFERENCE) - at(value + DIFFERENCE)) / (2.0 * DIFFERENCE);
             q[coordinate] = value;
-            (stiffness > 0.0 && stiffness.is_finite()).then_some(Mode { coordinate, speed, stiffness })
+            let share = shares[speed];
+            (stiffness > 0.0 && stiffness.is_finite()).then_some(Mode { coordinate, speed, stiffness, share })
         });
         Self { modes: modes.collect(), load: 0.0 }
     }
@@ -60,12 +71,13 @@ impl ModalSizes {
         self.modes.iter().fold(0.0, |fastest, mode| fastest.max(mode.stiffness.sqrt()))
     }
 
-    /// Writes the sizes among those of all coordinates and speeds, if a load is known.
+    /// Writes the sizes, as far as errors are judged by them, among those of all coordinates and speeds, if a load is known.
     pub(super) fn write(&self, (coordinates, speeds): (&mut [f64], &mut [f64])) {
         if self.load > 0.0 {
             for mode in &self.modes {
-                coordinates[mode.coordinate] = (self.load / mode.stiffness).min(1.0);
-                speeds[mode.speed] = (self.load / mode.stiffness.sqrt()).min(1.0);
+                let load = self.load * mode.share;
+                coordinates[mode.coordinate] = (load / mode.stiffness).min(1.0);
+                speeds[mode.speed] = (load / mode.stiffness.sqrt()).min(1.0);
             }
         }
     }
@@ -74,4 +86,12 @@ impl ModalSizes {
     pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         visit(&mut self.load);
     }
+}
+
+/// Of every speed, [`Mode::share`] if it is one of a mode.
+fn shares(evaluator: &mut Evaluator<'_>, (t, q, v): (f64, &[f64], &[f64])) -> Vec<f64> {
+    let jacobian = evaluator.closure(t, q, v).jacobian;
+    let least = NOTHING * largest(jacobian);
+    let moves_loops = |speed: usize| jacobian.chunks_exact(v.len()).any(|row| row[speed].abs() > least);
+    (0..v.len()).map(|speed| if moves_loops(speed) { IN_LOOPS } else { 1.0 }).collect()
 }
