@@ -1,0 +1,135 @@
+//! A drawing that is turned as a whole, or that holds a pin where its bush turns, is the same machine.
+
+mod simulated;
+
+use std::f64::consts::PI;
+
+use linkwear_runtime::{Integrator, Settings, Span};
+use simulated::{compiled, run_with};
+
+/// Turns a vector about an axis by an angle [rad], by Rodrigues.
+fn turned(vector: [f64; 3], (axis, angle): ([f64; 3], f64)) -> [f64; 3] {
+    let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let [a, b, c] = axis.map(|x| x / length);
+    let [x, y, z] = vector;
+    let along = a * x + b * y + c * z;
+    let (sin, cos) = angle.sin_cos();
+    let cross = [b * z - c * y, c * x - a * z, a * y - b * x];
+    std::array::from_fn(|i| cos * vector[i] + sin * cross[i] + (1.0 - cos) * along * [a, b, c][i])
+}
+
+/// A slider-crank in the plane whose piston has play in its bore, turned in space with its gravity and its load.
+fn slider_crank(turn: ([f64; 3], f64)) -> String {
+    let triple = |vector: [f64; 3], unit: &str| {
+        let [x, y, z] = turned(vector, turn);
+        format!("[\"{x} {unit}\", \"{y} {unit}\", \"{z} {unit}\"]")
+    };
+    let direction = |vector: [f64; 3]| {
+        let [x, y, z] = turned(vector, turn);
+        format!("[{x}, {y}, {z}]")
+    };
+    let (crank, rod) = (0.06, 0.2_f64);
+    let angle = 50.0_f64.to_radians();
+    let pin = [crank * angle.cos(), crank * angle.sin(), 0.0];
+    let end = pin[0] + (rod * rod - pin[1] * pin[1]).sqrt();
+    format!(
+        "gravity = {gravity}
+[points]
+O = [0, 0, 0]
+A = {a}
+B = {b}
+[bodies]
+crank = {{ rod = [\"O\", \"A\"], radius = \"8 mm\", density = \"7850 kg/m^3\" }}
+rod = {{ rod = [\"A\", \"B\"], radius = \"7 mm\", density = \"7850 kg/m^3\" }}
+piston = {{ mass = \"1.2 kg\", centre = \"B\", inertia = [\"1e-3 kg m^2\", \"1e-3 kg m^2\", \"1e-3 kg m^2\"] }}
+[joints]
+J1 = {{ revolute = [\"ground\", \"crank\"], at = \"O\", axis = {z}, drive = \"2*pi*3 Hz*t\" }}
+J2 = {{ revolute = [\"crank\", \"rod\"], at = \"A\", axis = {z} }}
+J3 = {{ revolute = [\"rod\", \"piston\"], at = \"B\", axis = {z} }}
+J4 = {{ prismatic = [\"ground\", \"piston\"], at = \"B\", axis = {x}, damping = \"20 N s/m\" }}
+[forces]
+gas = {{ force = \"piston\", at = \"B\", components = {load} }}
+[clearance.J4]
+radial = \"25 um\"
+journal_radius = \"20 mm\"
+length = \"50 mm\"
+ends = \"journal\"
+modulus = \"60 GPa\"
+restitution = 0.5
+friction = 0.05
+[wear.J4]
+coefficient = 1e-7
+hardness = \"1 GPa\"
+threshold = \"40 um\"
+",
+        gravity = triple([0.0, -9.81, 0.0], "m/s^2"),
+        a = triple(pin, "m"),
+        b = triple([end, 0.0, 0.0], "m"),
+        z = direction([0.0, 0.0, 1.0]),
+        x = direction([1.0, 0.0, 0.0]),
+        load = triple([-300.0, 0.0, 0.0], "N"),
+    )
+}
+
+/// Wear integral of every contact in the second turn [J].
+fn worn(text: &str, tolerance: f64) -> Vec<f64> {
+    let integrator = Integrator::adaptive(compiled(text).description(), Some(tolerance));
+    let run = run_with(text, &Settings::new(integrator, Span::Turns(2.0), 11));
+    run.turns[1].iter().map(|turn| turn.wear_integral).collect()
+}
+
+#[test]
+fn a_planar_mechanism_with_a_loose_guide_may_be_drawn_in_any_direction() {
+    let straight = worn(&slider_crank(([0.0, 0.0, 1.0], 0.0)), 1e-9);
+    assert_eq!(straight.len(), 2);
+    for turn in [
+        ([1.0, 0.0, 0.0], 30.0_f64.to_radians()),
+        ([0.0, 0.0, 1.0], 0.01),
+        ([1.0, -2.0, 0.5], 2.3),
+        ([0.3, 0.4, -1.0], -1.1),
+    ] {
+        for (found, expected) in worn(&slider_crank(turn), 1e-9).iter().zip(&straight) {
+            // Steps of 1e-9 through impacts, which multiply what rounding tells apart.
+            assert!((found - expected).abs() < 1e-5 * expected, "{turn:?}: {found}, not {expected}");
+        }
+    }
+}
+
+/// A socket that turns about a horizontal axis, on a ball or a pin of a weight that only a vertical guide lets move.
+fn guided(joint: &str, more: &str) -> String {
+    format!(
+        "gravity = [0, 0, \"-9.81 m/s^2\"]
+[points]
+O = [0, 0, 0]
+[bodies]
+weight = {{ mass = \"50 kg\", centre = \"O\", inertia = [\"0.02 kg m^2\", \"0.02 kg m^2\", \"0.02 kg m^2\"] }}
+socket = {{ mass = \"1 kg\", centre = \"O\", inertia = [\"0.02 kg m^2\", \"0.02 kg m^2\", \"0.02 kg m^2\"] }}
+[joints]
+D = {{ revolute = [\"ground\", \"socket\"], at = \"O\", axis = [0, 1, 0], drive = \"2*pi*2 Hz*t\" }}
+C = {{ {joint} = [\"socket\", \"weight\"], at = \"O\"{more} }}
+K = {{ prismatic = [\"ground\", \"weight\"], axis = [0, 0, 1], at = \"O\" }}
+[clearance.C]
+radial = \"20 um\"
+journal_radius = \"10 mm\"
+length = \"20 mm\"
+modulus = \"100 GPa\"
+restitution = 0.5
+friction = 0.0001
+[wear.C]
+coefficient = 1e-7
+hardness = \"1 GPa\"
+threshold = \"50 um\"
+"
+    )
+}
+
+#[test]
+fn a_bush_turns_about_a_pin_that_a_guide_holds() {
+    for (joint, more) in [("spherical", ""), ("revolute", ", axis = [0, 1, 0]")] {
+        let found = worn(&guided(joint, more), 1e-6);
+        // The weight, along the inside of the socket.
+        let expected = 50.0 * 9.81 * 2.0 * PI * (10e-3 + 20e-6);
+        // The weight bounces on the stiff contact for a while: parts of 1e-4 in the second turn.
+        assert!((found[0] - expected).abs() < 3e-4 * expected, "{joint}: {found:?}, not {expected}");
+    }
+}
