@@ -209,6 +209,41 @@ fn rotor(wear: &str) -> SourceFile {
     SourceFile { name: "rotor.toml".to_owned(), text }
 }
 
+/// 50 kg beside 0.02 kg m^2 make a factor of one, which the equations leave out, and a power of one is none: beside such a value they have
+/// a form of their own.
+#[test]
+fn a_number_that_meets_others_by_accident_varies_as_one_that_does_not() {
+    let text = rotor("").text.replace("10 kg", "m").replace("1e-2 kg m^2", "j");
+    let numbers = "[parameters]\nm = \"50 kg\"\nj = \"0.02 kg m^2\"\n";
+    let source = SourceFile { text: text.replace("[parameters]\n", numbers), ..rotor("") };
+    let elasticities = |set: &[(&str, &str)], names: &[&str]| {
+        let overrides = set.iter().map(|(name, value)| ((*name).to_owned(), (*value).to_owned())).collect();
+        let options = Options { overrides, ..Options::default() };
+        let found = by(&SensitivityStudy { options, ..SensitivityStudy::new(&source) }, names);
+        let all = (0..names.len()).map(|at| found.elasticity(&found.life.cycles, at).expect("a value"));
+        all.collect::<Vec<f64>>()
+    };
+    // By the law of Hertz the contact is as wide as the root of the load.
+    let [met, apart] = ["50 kg", "51 kg"].map(|mass| elasticities(&[("m", mass)], &["k", "m", "j"]));
+    for ((met, apart), expected) in met.iter().zip(&apart).zip([-1.0, -0.5, 0.0]) {
+        assert!((met - apart).abs() < 1e-5 && (met - expected).abs() < 1e-3, "{met} {apart} {expected}");
+    }
+}
+
+/// The others are answered; nothing is left if it is the only one.
+#[test]
+fn a_parameter_that_cannot_be_varied_takes_no_answers_from_others() {
+    let text = rotor("").text.replace("[parameters]\n", "[parameters]\ntwice = \"2*k\"\n");
+    let source = SourceFile { text, ..rotor("") };
+    let study = SensitivityStudy::new(&source);
+    let found = by(&study, &["twice", "k"]);
+    let left_out: Vec<&str> = found.left_out.iter().map(|one| &*one.parameter).collect();
+    assert_eq!((left_out, &*found.parameters[0].name, found.parameters.len()), (vec!["twice"], "k", 1));
+    let alone = SensitivityStudy { parameters: Some(vec!["twice".to_owned()]), ..study };
+    let refused = alone.run().expect_err("a formula");
+    assert!(matches!(&refused, SensitivityError::Formula { parameter } if parameter == "twice"), "{refused}");
+}
+
 /// The mean path of a life with a parameter set.
 fn mean_path(source: &SourceFile, (name, value): (&str, f64)) -> f64 {
     let overrides = vec![(name.to_owned(), format!("{value:?}"))];

@@ -1,6 +1,7 @@
 //! How wear and life vary with the parameters of a mechanism: derivatives by tangents through the motion, the wear law and the
 //! draws. In: a file. Out: [`SensitivityResult`]. Never knows terminals.
 
+mod chosen;
 mod closing;
 mod doubts;
 mod error;

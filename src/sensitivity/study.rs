@@ -3,13 +3,13 @@
 use std::num::NonZero;
 use std::thread::available_parallelism;
 
-use linkwear_codegen::model::Parameter;
 use linkwear_codegen::{Options, SourceFile};
 use linkwear_native::Routine;
 use linkwear_runtime::life::{LifeSettings, WearSource, WearTable};
 use linkwear_runtime::wear::ContactMeasure;
 use linkwear_runtime::{DynamicsSource, Watch};
 
+use super::chosen::chosen;
 use super::doubts::{coarser, doubts, doubts_of_points, every_second, joint_sensitivity, without_each};
 use super::error::SensitivityError;
 use super::measured::{Point, Points, Survey};
@@ -43,7 +43,7 @@ pub struct SensitivityStudy<'s> {
     pub source: &'s SourceFile,
     /// How it is compiled.
     pub options: Options,
-    /// The parameters. None: all that are numbers.
+    /// The parameters. None: all that are numbers. Those that cannot be varied are left out; an error if that is each that is asked for.
     pub parameters: Option<Vec<String>>,
     /// Length of a step [s]. None: short enough.
     pub step: Option<f64>,
@@ -93,10 +93,11 @@ impl<'s> SensitivityStudy<'s> {
             let (name, need) = ("the number of random lives", "2 or more, or 0: one tells no scatter");
             return Err(SensitivityError::Setting { name, value: 1.0, need });
         }
-        let base = Variant::new(self.source, &self.options)?;
+        let mut base = Variant::new(self.source, &self.options)?;
         let steps = self.steps(base.turn)?;
         watch.begin("parameters");
-        let (sides, left_out) = self.sides(&base, watch)?;
+        let (sides, left_out) =
+            chosen((self.source, &self.options), self.parameters.as_deref(), &mut base, watch)?;
         let mechanism = Mechanism::of(&base.compiled, &self.options, Backend::Auto)
             .map_err(|error| SensitivityError::Wear(error.to_string()))?;
         let settings = LifeSettings::new(base.joints.clone());
@@ -138,38 +139,6 @@ impl<'s> SensitivityStudy<'s> {
             return Err(SensitivityError::Setting { name, value: step, need });
         }
         Ok(Some(steps as u64))
-    }
-
-    /// The mechanism on both sides of every parameter; parameters that were not asked for may be left out.
-    fn sides(
-        &self,
-        base: &Variant,
-        watch: Watch<'_>,
-    ) -> Result<(Vec<Sides>, Vec<LeftOut>), SensitivityError> {
-        let all = &base.compiled.mechanism.parameters;
-        let named = |name: &String| {
-            let known = || all.iter().map(|parameter| parameter.name.clone()).collect();
-            let unknown = || SensitivityError::UnknownParameter { parameter: name.clone(), known: known() };
-            all.iter().find(|one| one.name == *name).ok_or_else(unknown)
-        };
-        let chosen: Vec<&Parameter> = match &self.parameters {
-            Some(asked) => asked.iter().map(named).collect::<Result<_, _>>()?,
-            None => all.iter().collect(),
-        };
-        let (mut sides, mut left_out) = (Vec::new(), Vec::new());
-        for (place, parameter) in chosen.iter().enumerate() {
-            if watch.report(place as f64 / chosen.len() as f64).is_break() {
-                return Err(SensitivityError::Interrupted);
-            }
-            match base.sides(self.source, &self.options, parameter) {
-                Ok(found) => sides.push(found),
-                Err(error) if self.parameters.is_some() => return Err(error),
-                Err(error) => {
-                    left_out.push(LeftOut { parameter: parameter.name.clone(), reason: error.to_string() });
-                }
-            }
-        }
-        Ok((sides, left_out))
     }
 
     /// Wears of all joints [m] where turns are run: those of the joint that fails are as far apart as clearances grow by one factor.
@@ -247,19 +216,21 @@ impl<'s> SensitivityStudy<'s> {
         measured.losses = measured.losses.max(losses);
         measured.keep(|place| slopes[place].is_some());
         let (mut kept, mut by, mut doubts) = (Vec::new(), Vec::new(), Vec::new());
+        let mut refused = None;
         for (sides, slope) in sides.into_iter().zip(slopes) {
             let Some([slope, doubt]) = slope else {
                 let parameter = sides.of.name;
                 let error = SensitivityError::NoLives { parameter: parameter.clone() };
-                if self.parameters.is_some() {
-                    return Err(error);
-                }
                 left_out.push(LeftOut { parameter, reason: error.to_string() });
+                refused.get_or_insert(error);
                 continue;
             };
             kept.push(sides);
             by.push(slope);
             doubts.push(doubt);
+        }
+        if let (Some(error), true) = (refused, kept.is_empty() && self.parameters.is_some()) {
+            return Err(error);
         }
         let life =
             LifeSensitivity { joint, cycles: Derived { value: cycles, by, doubts }, is_by_lives: true };

@@ -18,6 +18,9 @@ use super::error::SensitivityError;
 /// Step of a parameter, as a part of it. Curvature leaves its square, rounding 1e-16 over it.
 const STEP: f64 = 1e-4;
 
+/// How far from its value a parameter is for its form, as a part of it: no further than what [`STEP`] leaves open.
+const BESIDE: f64 = STEP * STEP;
+
 /// Numbers per joint with clearance that a motion wants besides parameters and state: how far it is worn [m], whether it touches,
 /// the speed at which its gap closed [m/s].
 pub(super) const MEMORY: usize = 3;
@@ -98,6 +101,18 @@ impl Variant {
         let closure = compiled.tapes()[Entry::Closure as usize].clone();
         drop(source);
         Ok(Self { motion, closure, turn, joints, compiled })
+    }
+
+    /// What sets a parameter beside its value, the how-many-th that is set so. Each goes by another part of itself: two of one value
+    /// would stay equal. Nothing if it is a formula, or zero, beside which a mechanism is another one.
+    pub(super) fn beside(parameter: &Parameter, place: usize) -> Option<(String, String)> {
+        let (number, unit) = parameter.written.as_ref().filter(|(number, _)| *number != 0.0)?;
+        Some(set(&parameter.name, number * (1.0 + BESIDE * (place + 1) as f64), unit))
+    }
+
+    /// Takes over the form of the equations of another, whose numbers are as good as its own.
+    pub(super) fn take_form(&mut self, other: Self) {
+        (self.motion, self.closure) = (other.motion, other.closure);
     }
 
     /// By how much longer than by physics the mean path of every wearing joint takes, beta over alpha.
