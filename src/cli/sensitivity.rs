@@ -124,15 +124,16 @@ fn text(name: &str, found: &SensitivityResult) -> String {
             random.seed
         ));
     }
-    text.push_str(&format!(
-        "\n{} of {} s a turn at {}, settled after at most {}; wear differs from that by adaptive steps by at most {:.1e} of \
-         itself\n",
-        plural(found.steps, "step", "steps"),
-        number(found.step),
-        plural(found.points as u64, "clearance", "clearances"),
-        plural(found.turns.into(), "turn", "turns"),
-        found.step_error
-    ));
+    let steps = format!("{} of {} s a turn", plural(found.steps, "step", "steps"), number(found.step));
+    text.push_str(&match found.turns {
+        0 => format!("\nin {steps} derivatives do not settle: those of wear are differences of turns beside it\n"),
+        turns => format!(
+            "\n{steps} at {}, settled after at most {}; wear differs from that by adaptive steps by at most {:.1e} of itself\n",
+            plural(found.points as u64, "clearance", "clearances"),
+            plural(turns.into(), "turn", "turns"),
+            found.step_error
+        ),
+    });
     if found.life.is_by_lives {
         let why = if found.losses > 0 {
             format!("bodies come apart up to {} a turn", plural(found.losses.into(), "time", "times"))

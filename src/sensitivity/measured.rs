@@ -142,7 +142,8 @@ impl Survey<'_> {
                 found.steps = fine(&mut passes[0], at, &wearing)?;
             }
             let settled = match self.settled((&mut passes, at), &state.measured, &wearing, &mut found) {
-                Err(Unsettled::Never(..)) if place > 0 => {
+                // Turns that are smooth have a derivative, though tangents of single steps do not settle to it.
+                Err(Unsettled::Never(..)) if place > 0 || state.is_smooth() => {
                     found.add_rough(state)?;
                     continue;
                 }
@@ -227,7 +228,9 @@ impl Survey<'_> {
                 _ => false,
             };
             if apart <= AGREES || same || 2 * found.steps > most || never > 1 {
-                found.step_error = found.step_error.max(apart);
+                if settled.is_ok() {
+                    found.step_error = found.step_error.max(apart);
+                }
                 return settled;
             }
             before = settled.ok();

@@ -81,7 +81,7 @@ pub struct SensitivityResult {
     pub step: f64,
     /// Largest difference of the wear of a turn from that by adaptive steps, as a part of it.
     pub step_error: f64,
-    /// Turns until derivatives had settled, where most were needed.
+    /// Turns until derivatives had settled, where most were needed; 0 where they did not, and are differences of turns beside it.
     pub turns: u32,
     /// How often bodies came apart in a turn, where that was most.
     pub losses: u32,

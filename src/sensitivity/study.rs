@@ -235,9 +235,19 @@ impl<'s> SensitivityStudy<'s> {
         let life =
             LifeSensitivity { joint, cycles: Derived { value: cycles, by, doubts }, is_by_lives: true };
         let mut drawn = None;
+        let mut neighbours = None;
+        if measured.points.is_empty() {
+            // Derivatives of the unworn mechanism's turns did not settle: differences tell how it wears.
+            let unworn = measured.rough.remove(0);
+            let beside = neighbours.insert(Neighbours::new(&kept, &wide)?);
+            measured.points.push(beside.point(&kept, unworn, self.threads())?);
+        }
         if self.trajectories > 0 {
             watch.begin("turns beside it");
-            let mut neighbours = Neighbours::new(&kept, &wide)?;
+            let mut neighbours = match neighbours {
+                Some(neighbours) => neighbours,
+                None => Neighbours::new(&kept, &wide)?,
+            };
             let (mut points, rough) = (measured.points.clone(), std::mem::take(&mut measured.rough));
             let count = rough.len() as f64;
             for (place, (worn, known)) in rough.into_iter().enumerate() {
