@@ -12,7 +12,7 @@ use std::path::Path;
 
 use crate::files::claim_folder;
 use crate::life::{
-    Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, MissionChoice, Trajectories, merge,
+    Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, MissionChoice, Pace, Trajectories, merge,
 };
 use crate::mechanism::Mechanism;
 #[cfg(feature = "page")]
@@ -236,6 +236,14 @@ pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure
             Ok(None) => format!("{} cycles were completed before", cycles.len()),
         },
     };
+    if let Cause::CycleLimit { pace, cycles, .. } = &cause {
+        // Random lives may be much longer than the mean path.
+        let cure = pace.as_ref().map_or_else(
+            || format!("write {} times the `revolutions_per_cycle` into every table [wear]", cycles / 50),
+            Pace::cure,
+        );
+        help = if help.is_empty() { cure } else { format!("{cure}; {help}") };
+    }
     if matches!(cause, Cause::Interrupted { .. }) {
         help.push_str(if help.is_empty() { "" } else { "; " });
         help.push_str(match kept {

@@ -7,6 +7,7 @@ use linkwear_runtime::RunError;
 use linkwear_runtime::life::{CycleRecord, FailureEvent, MissionError, SettingsError};
 use thiserror::Error;
 
+use super::pace::Pace;
 use crate::journal::JournalError;
 
 /// A life that was not lived to its end, with the cycles of the mean path and the random lives that were completed.
@@ -111,12 +112,14 @@ pub enum Cause {
     #[error(transparent)]
     Run(RunError),
     /// No joint fails within the limit on cycles.
-    #[error("{}no joint has failed after {cycles} cycles", of_life(*.trajectory))]
+    #[error("{}no joint has failed after {cycles} cycles{}", of_life(*.trajectory), at_pace(.pace.as_ref()))]
     CycleLimit {
         /// The random life; none: the mean path.
         trajectory: Option<u64>,
-        /// The limit.
+        /// Cycles that were lived.
         cycles: u64,
+        /// The life at the pace of these cycles; none for a random one.
+        pace: Option<Pace>,
     },
     /// The table, the mean path or a random life cannot go on.
     #[error("{}{error}", of_life(*.trajectory))]
@@ -146,6 +149,12 @@ pub enum Cause {
 
 fn of_life(trajectory: Option<u64>) -> String {
     trajectory.map_or_else(String::new, |number| format!("life {number}: "))
+}
+
+fn at_pace(pace: Option<&Pace>) -> String {
+    pace.map_or_else(String::new, |pace| {
+        format!("; as they wear, joint `{}` fails after {:.3e}", pace.joint, pace.cycles)
+    })
 }
 
 fn within(trajectory: Option<u64>, lives: Option<(usize, u64)>) -> String {
