@@ -177,6 +177,10 @@ impl<'a> Kept<'a> {
     }
 }
 
+/// What counts cycles of a machine in which nothing turns.
+const CLOCK: &str = "where nothing turns, a body of its own on a revolute joint, written first in [joints] and driven round once a \
+                     period, counts periods as revolutions";
+
 /// What to do about an error; the cycles and lives completed before go into the folder, else the cycles on stdout with
 /// the error.
 pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure {
@@ -217,7 +221,8 @@ pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure
         }
         Cause::TwoFits { .. } => return Failure::usage(&cause, "give one --fit for each joint"),
         Cause::NoWear => "add [clearance.R1] and [wear.R1], R1 being the joint that wears".to_owned(),
-        Cause::NoTurns => "drive one, as in R1 = { revolute = .., drive = \"2*pi*speed*t\" }".to_owned(),
+        Cause::NoTurns => format!("drive one, as in R1 = {{ revolute = .., drive = \"2*pi*speed*t\" }}; {CLOCK}"),
+        Cause::NoWholeTurn { .. } => format!("change the law of its drive; {CLOCK}"),
         Cause::NoProcess { joint } => format!(
             "add alpha = \"13.65 1/um\" to [wear.{joint}], give --fit {joint}=FIT.json, or leave --trajectories, \
              --fit and --shared-factor out"

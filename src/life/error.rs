@@ -34,6 +34,14 @@ pub enum Cause {
     /// No revolute joint is driven.
     #[error("no revolute joint is driven, so revolutions cannot be counted")]
     NoTurns,
+    /// One is driven, but never gets round.
+    #[error(
+        "the first driven revolute joint stops after {reached:.4} of a turn, so revolutions cannot be counted"
+    )]
+    NoWholeTurn {
+        /// How far it gets of one turn.
+        reached: f64,
+    },
     /// Random lives are asked for, and a wearing joint has neither alpha and beta nor a fit.
     #[error("joint `{joint}` has no Gamma process to draw from")]
     NoProcess {
@@ -193,6 +201,7 @@ impl From<RunError> for Cause {
     fn from(error: RunError) -> Self {
         match error {
             RunError::NoTurns => Self::NoTurns,
+            RunError::TurnsNotReached { reached, .. } if reached < 1.0 => Self::NoWholeTurn { reached },
             RunError::Interrupted { .. } => Self::Interrupted { trajectory: None, lives: None },
             error => Self::Run(error),
         }

@@ -105,6 +105,32 @@ fn a_life_of_too_many_cycles_says_how_many_revolutions_a_cycle_should_have() {
 }
 
 #[test]
+fn a_machine_in_which_nothing_turns_lives_by_a_clock_beside_it() {
+    let folder = Folder::new("life-clock");
+    let hand =
+        "hand = { mass = \"1 g\", centre = \"O\", inertia = [\"1 g mm^2\", \"1 g mm^2\", \"1 g mm^2\"] }";
+    let clock = format!(
+        "clock = {{ revolute = [\"ground\", \"hand\"], at = \"O\", axis = [0, 1, 0], drive = \"{TURNS}\" }}"
+    );
+    let (swings, wear) = ("30 deg*sin(2*pi*2 Hz*t)", "revolutions_per_cycle = 1e6");
+    let alone = rotor(&folder, (swings, wear, ["", ""]));
+    for command in [&["life"][..], &["life", "--coupling", "full"]] {
+        let answer = linkwear(&[command, &[&alone, "--mean", "--format", "json"]].concat());
+        assert_eq!(answer.code, 1, "{}", answer.out);
+        let error = &answer.errors()[0];
+        let text = |key: &str| error[key].as_str().expect("a text").to_owned();
+        let (message, help) = (text("message"), text("help"));
+        assert!(message.contains("0.0833 of a turn") && !message.contains("time span"), "{message}");
+        assert!(help.contains("first in [joints]") && help.contains("once a period"), "{help}");
+    }
+    let file = rotor(&folder, (swings, wear, [hand, &clock]));
+    let life = linkwear(&["life", &file, "--mean", "--format", "json"]).json();
+    // 120 degrees a period in place of 360.
+    let exact = 3.0 * 50e-6 / (1e-7 * 490.5 * 0.02 * std::f64::consts::PI / (1e9 * 4e-4));
+    assert!((number(&life["revolutions"]) / exact - 1.0).abs() < 1e-2, "{exact} {life}");
+}
+
+#[test]
 fn two_lives_do_not_tell_how_far_their_scatter_is_off() {
     let two = life(&["--settle", "1", "--trajectories", "2"]);
     let errors = &two["standard_errors"];
