@@ -12,7 +12,7 @@ use std::path::Path;
 
 use crate::files::claim_folder;
 use crate::life::{
-    Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, MissionChoice, Trajectories, merge,
+    Cause, LifeError, LifeFacts, LifeJournal, LifePart, LifeStudy, MissionChoice, Pace, Trajectories, merge,
 };
 use crate::mechanism::Mechanism;
 #[cfg(feature = "page")]
@@ -177,6 +177,10 @@ impl<'a> Kept<'a> {
     }
 }
 
+/// What counts cycles of a machine in which nothing turns.
+const CLOCK: &str = "where nothing turns, a body of its own on a revolute joint, written first in [joints] and driven round once a \
+                     period, counts periods as revolutions";
+
 /// What to do about an error; the cycles and lives completed before go into the folder, else the cycles on stdout with
 /// the error.
 pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure {
@@ -217,7 +221,8 @@ pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure
         }
         Cause::TwoFits { .. } => return Failure::usage(&cause, "give one --fit for each joint"),
         Cause::NoWear => "add [clearance.R1] and [wear.R1], R1 being the joint that wears".to_owned(),
-        Cause::NoTurns => "drive one, as in R1 = { revolute = .., drive = \"2*pi*speed*t\" }".to_owned(),
+        Cause::NoTurns => format!("drive one, as in R1 = {{ revolute = .., drive = \"2*pi*speed*t\" }}; {CLOCK}"),
+        Cause::NoWholeTurn { .. } => format!("change the law of its drive; {CLOCK}"),
         Cause::NoProcess { joint } => format!(
             "add alpha = \"13.65 1/um\" to [wear.{joint}], give --fit {joint}=FIT.json, or leave --trajectories, \
              --fit and --shared-factor out"
@@ -236,6 +241,14 @@ pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure
             Ok(None) => format!("{} cycles were completed before", cycles.len()),
         },
     };
+    if let Cause::CycleLimit { pace, cycles, .. } = &cause {
+        // Random lives may be much longer than the mean path.
+        let cure = pace.as_ref().map_or_else(
+            || format!("write {} times the `revolutions_per_cycle` into every table [wear]", cycles / 50),
+            Pace::cure,
+        );
+        help = if help.is_empty() { cure } else { format!("{cure}; {help}") };
+    }
     if matches!(cause, Cause::Interrupted { .. }) {
         help.push_str(if help.is_empty() { "" } else { "; " });
         help.push_str(match kept {

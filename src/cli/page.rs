@@ -99,7 +99,7 @@ fn lived(arguments: &ReportArguments, mechanism: &Mechanism, ear: Ear<'_>) -> Re
         study.run_watched(ear.watch)
     };
     let mut result = match run() {
-        Err(error) if matches!(*error.cause, Cause::NoTurns) => {
+        Err(error) if matches!(*error.cause, Cause::NoTurns | Cause::NoWholeTurn { .. }) => {
             if ear.remarks {
                 remark(&format_args!("warning: no life in the page: {error}"));
             }

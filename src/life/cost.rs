@@ -8,6 +8,7 @@ use linkwear_runtime::{DynamicsSource, RevolutionSettings, Watch};
 
 use super::error::{Cause, LifeError};
 use super::mission::Duty;
+use super::pace::Pace;
 use super::run::{Plan, joints};
 use super::study::{Coupling, LifeStudy};
 
@@ -26,7 +27,7 @@ const SHORTER_IN_LANES: f64 = 4.0;
 const TO_SETTLE: u32 = 1;
 
 /// What full coupling costs by one revolution from the start, as far as the rest of the life is like it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Cost {
     /// Time that a revolution took [s].
     pub seconds_per_revolution: f64,
@@ -44,6 +45,8 @@ pub struct Cost {
     pub side_by_side: f64,
     /// Measurements of a table instead; nothing where a profile is fed back, which no table holds.
     pub table: Option<f64>,
+    /// The life, if it has more cycles than are lived.
+    pub too_long: Option<Pace>,
 }
 
 impl Cost {
@@ -71,14 +74,14 @@ impl LifeStudy<'_> {
         if plan.coupling == Coupling::Table {
             return Ok(None);
         }
-        let LifeSettings { joints, .. } = &plan.settings;
+        let LifeSettings { joints, most_cycles, .. } = &plan.settings;
         let start = Instant::now();
         let measured = source.measure(&unworn, &mut Vec::new()).map_err(Cause::from)?;
         let seconds_per_revolution = start.elapsed().as_secs_f64();
-        let life = joints.iter().zip(&measured).map(|(joint, measured)| {
-            joint.threshold / (joint.revolutions_per_cycle * joint.wear.of(measured))
-        });
-        let cycles = life.fold(f64::INFINITY, f64::min);
+        let wears = joints.iter().zip(&measured);
+        let wears = wears.map(|(joint, measured)| joint.revolutions_per_cycle * joint.wear.of(measured));
+        let pace = Pace::of(joints, wears);
+        let cycles = pace.as_ref().map_or(f64::INFINITY, |pace| pace.cycles);
         let is_ahead = plan.settings.is_measured_ahead();
         let [first, later] = PER_CYCLE;
         let most = first * cycles.min(FIRST_CYCLES) + later * (cycles - FIRST_CYCLES).max(0.0);
@@ -97,6 +100,7 @@ impl LifeStudy<'_> {
             lives: lives * PER_DRAWN_CYCLE[usize::from(!has_table)] * cycles,
             side_by_side: plan.lanes().map_or(1.0, |_| SHORTER_IN_LANES),
             table: has_table.then_some(table),
+            too_long: pace.filter(|pace| pace.cycles > *most_cycles as f64),
         }))
     }
 }

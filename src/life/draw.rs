@@ -152,7 +152,7 @@ impl Plan<'_> {
             },
             Ended::Panicked { trajectory, message } => Cause::Panicked { trajectory, message },
             Ended::Survived { trajectory } => {
-                Cause::CycleLimit { trajectory: Some(trajectory), cycles: settings.most_cycles }
+                Cause::CycleLimit { trajectory: Some(trajectory), cycles: settings.most_cycles, pace: None }
             }
         };
         Err((cause, failures))

@@ -7,6 +7,7 @@ use linkwear_runtime::RunError;
 use linkwear_runtime::life::{CycleRecord, FailureEvent, MissionError, SettingsError};
 use thiserror::Error;
 
+use super::pace::Pace;
 use crate::journal::JournalError;
 
 /// A life that was not lived to its end, with the cycles of the mean path and the random lives that were completed.
@@ -33,6 +34,14 @@ pub enum Cause {
     /// No revolute joint is driven.
     #[error("no revolute joint is driven, so revolutions cannot be counted")]
     NoTurns,
+    /// One is driven, but never gets round.
+    #[error(
+        "the first driven revolute joint stops after {reached:.4} of a turn, so revolutions cannot be counted"
+    )]
+    NoWholeTurn {
+        /// How far it gets of one turn.
+        reached: f64,
+    },
     /// Random lives are asked for, and a wearing joint has neither alpha and beta nor a fit.
     #[error("joint `{joint}` has no Gamma process to draw from")]
     NoProcess {
@@ -111,12 +120,14 @@ pub enum Cause {
     #[error(transparent)]
     Run(RunError),
     /// No joint fails within the limit on cycles.
-    #[error("{}no joint has failed after {cycles} cycles", of_life(*.trajectory))]
+    #[error("{}no joint has failed after {cycles} cycles{}", of_life(*.trajectory), at_pace(.pace.as_ref()))]
     CycleLimit {
         /// The random life; none: the mean path.
         trajectory: Option<u64>,
-        /// The limit.
+        /// Cycles that were lived.
         cycles: u64,
+        /// The life at the pace of these cycles; none for a random one.
+        pace: Option<Pace>,
     },
     /// The table, the mean path or a random life cannot go on.
     #[error("{}{error}", of_life(*.trajectory))]
@@ -146,6 +157,12 @@ pub enum Cause {
 
 fn of_life(trajectory: Option<u64>) -> String {
     trajectory.map_or_else(String::new, |number| format!("life {number}: "))
+}
+
+fn at_pace(pace: Option<&Pace>) -> String {
+    pace.map_or_else(String::new, |pace| {
+        format!("; as they wear, joint `{}` fails after {:.3e}", pace.joint, pace.cycles)
+    })
 }
 
 fn within(trajectory: Option<u64>, lives: Option<(usize, u64)>) -> String {
@@ -184,6 +201,7 @@ impl From<RunError> for Cause {
     fn from(error: RunError) -> Self {
         match error {
             RunError::NoTurns => Self::NoTurns,
+            RunError::TurnsNotReached { reached, .. } if reached < 1.0 => Self::NoWholeTurn { reached },
             RunError::Interrupted { .. } => Self::Interrupted { trajectory: None, lives: None },
             error => Self::Run(error),
         }

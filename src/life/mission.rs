@@ -91,7 +91,11 @@ impl Duty {
         };
         let mut duty = Self { name: None, setups: vec![whole] };
         let source = duty.sources(system, study.revolutions, Watch::NONE)?.pop();
-        duty.setups[0].seconds = source.and_then(|mut source| source.seconds_per_revolution().ok()?);
+        let seconds = source.map(|mut source| source.seconds_per_revolution()).transpose();
+        duty.setups[0].seconds = match seconds {
+            Err(never @ RunError::TurnsNotReached { .. }) => return Err(never.into()),
+            seconds => seconds.ok().flatten().flatten(),
+        };
         Ok(duty)
     }
 

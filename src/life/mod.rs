@@ -18,6 +18,7 @@ mod machine_code;
 mod mission;
 mod mission_choice;
 mod mission_result;
+mod pace;
 mod part;
 mod paths;
 mod process;
@@ -40,6 +41,7 @@ pub use journal::LifeJournal;
 pub(crate) use journal::NAME as JOURNAL;
 pub use mission_choice::MissionChoice;
 pub use mission_result::{AloneResult, MissionResult, SegmentResult};
+pub use pace::Pace;
 #[cfg(feature = "page")]
 pub(crate) use part::NAME as SHARD;
 pub use part::{LifePart, merge};

@@ -20,6 +20,7 @@ use super::error::{Cause, LifeError};
 use super::journal::LifeJournal;
 use super::mission::Duty;
 use super::mission_result::MissionResult;
+use super::pace::Pace;
 use super::process::Process;
 use super::result::{LifeResult, WornPair};
 use super::source::{KeptSource, Log};
@@ -285,7 +286,9 @@ impl<'s> Plan<'s> {
             Ok(LifeOutcome::Failed(end)) => Ok(end),
             Ok(LifeOutcome::Cancelled) => Err(Cause::Interrupted { trajectory: None, lives: None }),
             Ok(LifeOutcome::CycleLimit) => {
-                Err(Cause::CycleLimit { trajectory: None, cycles: self.settings.most_cycles })
+                let wears = state.joints.iter().map(|joint| joint.wear / state.cycle as f64);
+                let pace = Pace::of(&self.settings.joints, wears);
+                Err(Cause::CycleLimit { trajectory: None, cycles: state.cycle, pace })
             }
             Err(error) => Err(self.cause(error, None)),
         };

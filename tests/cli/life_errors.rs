@@ -1,6 +1,6 @@
 //! `life` says how far its numbers may be off, and how long they are in hours.
 
-use crate::command::linkwear;
+use crate::command::{Folder, linkwear};
 use serde_json::Value;
 
 const RSSR: &str = "mechanisms/rssr.toml";
@@ -62,6 +62,74 @@ fn a_few_lives_have_wide_intervals_and_every_life_a_time() {
     );
 }
 
+/// A rotor on one journal, with a drive; more of its [wear], and what stands before its [joints].
+fn rotor(folder: &Folder, (drive, wear, clock): (&str, &str, [&str; 2])) -> String {
+    let [hand, clock] = clock;
+    let text = format!(
+        "spec = 1\nname = \"rotor\"\ngravity = [0, 0, \"-9.81 m/s^2\"]\n[points]\nO = [0, 0, 0]\n[bodies]\n{hand}\n\
+         rotor = {{ mass = \"50 kg\", centre = \"O\", inertia = [\"0.02 kg m^2\", \"0.02 kg m^2\", \"0.02 kg m^2\"] }}\n[joints]\n{clock}\n\
+         R1 = {{ revolute = [\"ground\", \"rotor\"], at = \"O\", axis = [0, 1, 0], drive = \"{drive}\" }}\n[clearance.R1]\n\
+         radial = \"20 um\"\njournal_radius = \"10 mm\"\nlength = \"20 mm\"\nmodulus = \"100 GPa\"\nrestitution = 0.5\n\
+         friction = 1e-4\n[wear.R1]\ncoefficient = 1e-7\nhardness = \"1 GPa\"\nthreshold = \"50 um\"\narea = \"projected\"\n{wear}\n"
+    );
+    folder.write("rotor.toml", &text)
+}
+
+const TURNS: &str = "2*pi*2 Hz*t";
+
+/// A revolution a cycle, which is the default, makes more cycles than are lived.
+#[test]
+fn a_life_of_too_many_cycles_says_how_many_revolutions_a_cycle_should_have() {
+    let folder = Folder::new("life-long");
+    let file = rotor(&folder, (TURNS, "", ["", ""]));
+    // k F s / (H A): 490.5 N, 20 pi mm a turn, an area of 2 r L.
+    let exact = 50e-6 / (1e-7 * 490.5 * 0.02 * std::f64::consts::PI / (1e9 * 4e-4));
+    for coupling in ["table", "full"] {
+        let answer = linkwear(&["life", &file, "--mean", "--coupling", coupling, "--format", "json"]);
+        assert_eq!(answer.code, 1, "{}", answer.out);
+        let error = &answer.errors()[0];
+        let text = |key: &str| error[key].as_str().expect("a text").to_owned();
+        let (message, help) = (text("message"), text("help"));
+        assert!(message.contains(&format!("joint `R1` fails after {exact:.3e}")), "{message}");
+        assert!(help.contains("`revolutions_per_cycle = 1e5` in [wear.R1]"), "{help}");
+        assert!(help.contains("for some 65 cycles"), "{help}");
+        let lived = message.split(" cycles").next().and_then(|text| text.split(' ').next_back());
+        let lived = lived.expect("a number of cycles");
+        assert!(help.contains(&format!("{lived} cycles were completed")), "{message} {help}");
+        // What the dynamics at every step cost is told before, and this with it.
+        assert_eq!(answer.err.contains("revolutions_per_cycle = 1e5"), coupling == "full", "{}", answer.err);
+    }
+    let file = rotor(&folder, (TURNS, "revolutions_per_cycle = 1e5", ["", ""]));
+    let life = linkwear(&["life", &file, "--mean", "--format", "json"]).json();
+    assert!((number(&life["revolutions"]) / exact - 1.0).abs() < 1e-2, "{life}");
+}
+
+#[test]
+fn a_machine_in_which_nothing_turns_lives_by_a_clock_beside_it() {
+    let folder = Folder::new("life-clock");
+    let hand =
+        "hand = { mass = \"1 g\", centre = \"O\", inertia = [\"1 g mm^2\", \"1 g mm^2\", \"1 g mm^2\"] }";
+    let clock = format!(
+        "clock = {{ revolute = [\"ground\", \"hand\"], at = \"O\", axis = [0, 1, 0], drive = \"{TURNS}\" }}"
+    );
+    let (swings, wear) = ("30 deg*sin(2*pi*2 Hz*t)", "revolutions_per_cycle = 1e6");
+    let alone = rotor(&folder, (swings, wear, ["", ""]));
+    for command in [&["life"][..], &["life", "--coupling", "full"]] {
+        let answer = linkwear(&[command, &[&alone, "--mean", "--format", "json"]].concat());
+        assert_eq!(answer.code, 1, "{}", answer.out);
+        let error = &answer.errors()[0];
+        let text = |key: &str| error[key].as_str().expect("a text").to_owned();
+        let (message, help) = (text("message"), text("help"));
+        assert!(message.contains("0.0833 of a turn") && !message.contains("time span"), "{message}");
+        assert!(help.contains("first in [joints]") && help.contains("once a period"), "{help}");
+    }
+    let file = rotor(&folder, (swings, wear, [hand, &clock]));
+    let life = linkwear(&["life", &file, "--mean", "--format", "json"]).json();
+    // 120 degrees a period in place of 360.
+    let exact = 3.0 * 50e-6 / (1e-7 * 490.5 * 0.02 * std::f64::consts::PI / (1e9 * 4e-4));
+    assert!((number(&life["revolutions"]) / exact - 1.0).abs() < 1e-2, "{exact} {life}");
+}
+
 #[test]
 fn two_lives_do_not_tell_how_far_their_scatter_is_off() {
     let two = life(&["--settle", "1", "--trajectories", "2"]);
@@ -77,7 +145,7 @@ fn two_lives_do_not_tell_how_far_their_scatter_is_off() {
 
 #[test]
 fn a_drive_of_uneven_turns_has_a_life_without_hours() {
-    let folder = crate::command::Folder::new("life-uneven");
+    let folder = Folder::new("life-uneven");
     let text = std::fs::read_to_string(RSSR).expect("the case study");
     let uneven = text.replace("drive = \"2*pi*speed*t\"", "drive = \"2*pi*speed*t + 0.2*sin(3*speed*t)\"");
     assert_ne!(uneven, text);
@@ -90,7 +158,7 @@ fn a_drive_of_uneven_turns_has_a_life_without_hours() {
 
 #[test]
 fn a_life_by_the_dynamics_says_before_it_begins_what_it_costs_and_what_a_table_would() {
-    let folder = crate::command::Folder::new("life-cost");
+    let folder = Folder::new("life-cost");
     let text = std::fs::read_to_string(RSSR).expect("the case study");
     // Two cycles and a half, and a worn profile that is fed back.
     let worn = text.replace("[wear.R1]", "[wear.R1]\nprofile = true\nmeasure = \"maximum\"");
@@ -117,7 +185,7 @@ fn a_life_by_the_dynamics_says_before_it_begins_what_it_costs_and_what_a_table_w
 
 #[test]
 fn check_and_life_say_what_wear_is_and_when_to_take_another_measure() {
-    let folder = crate::command::Folder::new("life-measure");
+    let folder = Folder::new("life-measure");
     let text = std::fs::read_to_string(RSSR).expect("the case study");
     let kinds = [
         ("depth", "", false, "one place as large as the contact"),

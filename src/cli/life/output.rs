@@ -47,7 +47,7 @@ pub fn cycles(names: &[String], cycles: &[CycleRecord]) -> Answer {
 /// What a life with the dynamics at every wear step will cost, and what a table would.
 pub fn cost(cost: &Cost) -> String {
     let Cost { seconds_per_revolution, revolutions, cycles, mean_path: [least, most], .. } = cost;
-    let Cost { mean_path_side_by_side: together, lives, side_by_side, table, .. } = cost;
+    let Cost { mean_path_side_by_side: together, lives, side_by_side, table, too_long, .. } = cost;
     let time = |measurements: f64| about(cost.seconds(measurements));
     let mut text = format!(
         "full coupling runs the dynamics at every wear step: {} a measurement ({revolutions} revolutions of {}). If all wore as \
@@ -81,6 +81,9 @@ pub fn cost(cost: &Cost) -> String {
             time(17.0)
         ),
     };
+    if let Some(pace) = too_long {
+        let _ = write!(text, "\nwarning: no life is lived for so many: {}", pace.cure());
+    }
     text
 }
 

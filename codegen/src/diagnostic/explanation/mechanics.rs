@@ -148,7 +148,7 @@ rod = { rod = ["A", "P"], radius = "4 mm", mass = "0.15 kg", flexible = { data =
         file: File::Press,
         text: "Clearance or wear that a joint cannot have. `radial` is the difference of two radii, so it is small \
                beside the journal's; only revolute, prismatic, cylindrical, universal and spherical joints can have \
-               play; only a journal in a bearing can tilt in it, and it has two ends to touch with; only a joint with \
+               play, and no spherical one with a `drive` of three angles; only a journal in a bearing can tilt in it, and it has two ends to touch with; only a joint with \
                play can wear.",
         wrong: r#"[clearance.pin]
 radial = "12.025 mm""#,

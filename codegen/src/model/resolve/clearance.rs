@@ -28,6 +28,17 @@ impl Resolver<'_> {
         for (name, written) in &file.clearance.0 {
             let Some(id) = self.joint_named(name, "[clearance]") else { continue };
             let Some(kind) = self.joint_models.get(id.index()).map(|model| model.kind) else { continue };
+            if self.joint_models[id.index()].is_driven_ball() {
+                let message = format!(
+                    "joint `{}`: a ball whose three angles are prescribed cannot have clearance",
+                    name.value
+                );
+                self.refuse(Code::BadClearance, name.span, message).help(
+                    "drive the body by another joint and leave `drive` out here, or take a `revolute` or `universal` joint, which may \
+                     have both",
+                );
+                continue;
+            }
             if kind.clearance.is_empty() {
                 let message = format!("the {} joint `{}` cannot have clearance", kind.name, name.value);
                 self.refuse(Code::BadClearance, name.span, message)
