@@ -11,11 +11,13 @@ const LARGEST_GROWTH: f64 = 4.0;
 const LARGEST_CUT: f64 = 0.2;
 /// Part of the step that the error would just allow.
 const SAFETY: f64 = 0.9;
-/// Errors of equal steps that are noise lie within this factor of each other, mostly: the largest of dozens of bins that scatter.
-const SPREAD: f64 = 3.0;
-/// What is left of the known noise after a step that erred less.
+/// Steps go by this multiple of an error that did not shrink with the step: noise, or a kink on the way.
+const ABOVE_NOISE: f64 = 2.0;
+/// What is left of the known noise after a step: a kink that was taken for noise is forgotten in some ten steps.
 const NOISE_KEPT: f64 = 0.9;
-/// And after one that erred more: a kink that was taken for noise is forgotten in some ten steps.
+/// Where errors scatter, those of equal steps lie within this factor of each other, mostly: the largest of dozens of bins.
+const SPREAD: f64 = 3.0;
+/// What is left of the noise there after a step that erred more than it: the step's own error shows.
 const NOISE_DOUBTED: f64 = 0.5;
 /// A step is longer than the one before if it is so many times as long: equal steps to an end differ by less.
 const CLEARLY_LONGER: f64 = 1.1;
@@ -31,12 +33,15 @@ pub struct Control {
     /// The last step that was accepted: its length in cycles, its relative error.
     #[cfg_attr(feature = "serde", serde(default))]
     pub last: (f64, f64),
+    /// Whether errors are known to scatter: the shortest step is no better than longer ones.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub scatters: bool,
 }
 
 impl Control {
     /// Of a life that begins: with a step of one cycle.
     pub(super) const fn new() -> Self {
-        Self { step: 1.0, noise: 0.0, last: (0.0, 0.0) }
+        Self { step: 1.0, noise: 0.0, last: (0.0, 0.0), scatters: false }
     }
 
     /// Whether a step of a length is good enough, by its error over its gain and that of a longer one that was refused
@@ -51,28 +56,43 @@ impl Control {
         // Error over gain goes with the square of the step; what does not go even in proportion is noise.
         let in_vain = refused.filter(|(longer, erred)| ratio > erred * (length / longer));
         if let Some((_, erred)) = in_vain {
-            self.noise = self.noise.max(ratio).max(erred);
+            let seen = if self.scatters { erred.max(ratio) } else { ratio };
+            self.noise = self.noise.max(seen);
         }
-        let allowed = tolerance.max(SPREAD * self.noise);
+        let allowed = tolerance.max(if self.scatters { SPREAD } else { ABOVE_NOISE } * self.noise);
         let factor = SAFETY * libm::sqrt(allowed / ratio.max(f64::MIN_POSITIVE));
         if ratio > allowed && length > shortest {
             self.step = (length * factor.max(LARGEST_CUT)).max(shortest);
             return false;
         }
-        // What was refused for its noise need not be approached step by step.
-        self.step = (length * factor.min(LARGEST_GROWTH)).max(in_vain.map_or(shortest, |(longer, _)| longer));
+        self.step = (length * factor.min(LARGEST_GROWTH)).max(shortest);
+        if self.scatters {
+            // What was refused for its noise need not be approached step by step.
+            self.step = self.step.max(in_vain.map_or(0.0, |(longer, _)| longer));
+            self.learn_scatter(ratio, length, tolerance);
+        } else {
+            self.noise *= NOISE_KEPT;
+        }
+        if ratio > tolerance && length <= shortest {
+            self.noise = self.noise.max(ratio);
+            self.scatters = true;
+        }
+        self.last = (length, ratio);
+        true
+    }
+
+    /// What an accepted step tells of an error that scatters, until it is below the tolerance.
+    fn learn_scatter(&mut self, ratio: f64, length: f64, tolerance: f64) {
         self.noise *= match ratio {
             more if more > self.noise => NOISE_DOUBTED,
             less if SPREAD * less < self.noise => NOISE_KEPT,
             _ => 1.0,
         };
         let (before, erred) = self.last;
-        let grew_in_vain = length > CLEARLY_LONGER * before && ratio < erred * (length / before);
-        if ratio > tolerance && (length <= shortest || grew_in_vain) {
+        if length > CLEARLY_LONGER * before && ratio < erred * (length / before) && ratio > tolerance {
             self.noise = self.noise.max(ratio);
         }
-        self.last = (length, ratio);
-        true
+        self.scatters = self.noise > tolerance;
     }
 }
 
