@@ -311,3 +311,55 @@ fn lives_vary_with_all_that_the_mean_path_goes_by() {
     let doubt = found.life.cycles.doubts[1] * 0.5 / found.life.cycles.value;
     assert!((elasticity(1) - lived).abs() < doubt.max(2e-3), "{} {lived} {doubt}", elasticity(1));
 }
+
+/// A slider-crank whose crank pin rings in its bearing, never leaving it.
+const RINGING: &str = "spec = 1
+name = \"ringing\"
+gravity = [0, \"-9.81 m/s^2\", 0]
+[parameters]
+c2 = 15
+[points]
+O = [0, 0, 0]
+A = [\"38.567256581192359 mm\", \"45.962666587138677 mm\", 0]
+B = [\"233.21420179277161 mm\", 0, 0]
+[bodies]
+crank = { rod = [\"O\", \"A\"], radius = \"8 mm\", density = \"7850 kg/m^3\" }
+rod = { rod = [\"A\", \"B\"], radius = \"7 mm\", density = \"7850 kg/m^3\" }
+piston = { mass = \"1.2 kg\", centre = \"B\", inertia = [\"1e-3 kg m^2\", \"1e-3 kg m^2\", \"1e-3 kg m^2\"] }
+[joints]
+J1 = { revolute = [\"ground\", \"crank\"], at = \"O\", axis = [0, 0, 1], drive = \"2*pi*3 Hz*t\" }
+J2 = { revolute = [\"crank\", \"rod\"], at = \"A\", axis = [0, 0, 1] }
+J3 = { revolute = [\"rod\", \"piston\"], at = \"B\", axis = [0, 0, 1] }
+J4 = { prismatic = [\"ground\", \"piston\"], at = \"B\", axis = [1, 0, 0], damping = \"20 N s/m\" }
+[forces]
+gas = { force = \"piston\", at = \"B\", components = [\"-300 N\", 0, 0] }
+[clearance.J2]
+radial = \"c2*1 um\"
+journal_radius = \"8 mm\"
+length = \"16 mm\"
+modulus = \"60 GPa\"
+restitution = 0.6
+friction = 0.08
+[wear.J2]
+coefficient = 2e-8
+hardness = \"1.5 GPa\"
+threshold = \"30 um\"
+revolutions_per_cycle = 1e5
+area = \"hertz\"
+";
+
+#[test]
+fn a_motion_that_repeats_varies_though_tangents_of_its_turns_do_not_settle() {
+    let source = SourceFile { name: "ringing.toml".into(), text: RINGING.into() };
+    let found = by(&study(&source), &["c2"]);
+    assert_eq!(found.turns, 0, "its tangents settle: another mechanism is wanted here");
+    assert!(found.life.is_by_lives && found.step_error.is_finite());
+    let lives = [0.99, 1.01].map(|part| mean_path(&source, ("c2", part * 15.0)));
+    let expected = (lives[1] / lives[0]).ln() / (1.01_f64 / 0.99).ln();
+    let elasticity = found.elasticity(&found.life.cycles, 0).expect("a life");
+    // Its life, of wear that goes with the root of the clearance, is curved by less than a thousandth over these per cent.
+    assert!((elasticity - expected).abs() < 1e-3, "{elasticity}, not {expected}");
+    // By Hertz, 2 b goes with the root of c R, S hardly at all.
+    let depth = found.elasticity(&found.joints[0].depth, 0).expect("a depth");
+    assert!((depth - 0.5).abs() < 0.01, "{depth}");
+}
