@@ -42,7 +42,9 @@ B = {b}
 crank = {{ rod = [\"O\", \"A\"], radius = \"8 mm\", density = \"7850 kg/m^3\" }}
 rod = {{ rod = [\"A\", \"B\"], radius = \"7 mm\", density = \"7850 kg/m^3\" }}
 piston = {{ mass = \"1.2 kg\", centre = \"B\", inertia = [\"1e-3 kg m^2\", \"1e-3 kg m^2\", \"1e-3 kg m^2\"] }}
+wheel = {{ mass = \"1 kg\", centre = \"O\", inertia = [\"1e-3 kg m^2\", \"1e-3 kg m^2\", \"1e-3 kg m^2\"] }}
 [joints]
+J0 = {{ revolute = [\"ground\", \"wheel\"], at = \"O\", axis = {slanted} }}
 J1 = {{ revolute = [\"ground\", \"crank\"], at = \"O\", axis = {z}, drive = \"2*pi*3 Hz*t\" }}
 J2 = {{ revolute = [\"crank\", \"rod\"], at = \"A\", axis = {z} }}
 J3 = {{ revolute = [\"rod\", \"piston\"], at = \"B\", axis = {z} }}
@@ -67,6 +69,8 @@ threshold = \"40 um\"
         b = triple([end, 0.0, 0.0], "m"),
         z = direction([0.0, 0.0, 1.0]),
         x = direction([1.0, 0.0, 0.0]),
+        // A hinge across the guide that has nothing to do with it.
+        slanted = direction([0.0, 0.6, 0.8]),
         load = triple([-300.0, 0.0, 0.0], "N"),
     )
 }

@@ -10,7 +10,7 @@ use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::model::{Axis, Clearance, Ends, Formula, Joint, JointKind};
 use crate::source::Span;
-use crate::spec::{At, ClearanceSpec, Dimension, File, Name, Quantity};
+use crate::spec::{At, ClearanceSpec, Dimension, File, JointSpec, Name, Quantity};
 
 /// Speed below which friction is smoothed, unless the file says otherwise [m/s].
 const FRICTION_SPEED: f64 = 1e-3;
@@ -46,7 +46,7 @@ impl Resolver<'_> {
                 continue;
             }
             let tilt = self.tilt(name, written, kind);
-            let hinges = if tilt.is_some() { self.hinges() } else { Vec::new() };
+            let hinges = if tilt.is_some() { self.hinges(file, name) } else { Vec::new() };
             let model = &mut self.joint_models[id.index()];
             (model.clearance, model.tilt) = (true, tilt);
             if let [axis] = model.axes[..] {
@@ -55,11 +55,22 @@ impl Resolver<'_> {
         }
     }
 
-    /// Axes about which joints turn that are drawn where they are.
-    fn hinges(&self) -> Vec<[f64; 3]> {
-        let turning = self.joint_models.iter().filter(|model| model.turn_about_axis().is_some());
-        let axes = turning.filter_map(|model| model.axes.first());
-        axes.filter(|axis| axis.parent == axis.child).map(|axis| axis.parent).collect()
+    /// Axes about which joints turn that are drawn where they are, first those of joints that share a body with this one.
+    fn hinges(&self, file: &File, of: &Name) -> Vec<[f64; 3]> {
+        let bodies = |joint: &At<JointSpec>| -> Vec<String> {
+            let pair = joint.value.kinds().next().map(|(_, pair)| &pair.0.value);
+            let names = pair.into_iter().flatten().map(|name| name.value.clone());
+            names.filter(|name| name != "ground").collect()
+        };
+        let own = file.joints.0.iter().find(|(name, _)| name.value == of.value);
+        let own = own.map_or_else(Vec::new, |(_, joint)| bodies(joint));
+        let turning = file.joints.0.iter().zip(&self.joint_models).filter_map(|((_, joint), model)| {
+            model.turn_about_axis()?;
+            let axis = model.axes.first().filter(|axis| axis.parent == axis.child)?;
+            Some((bodies(joint).iter().any(|body| own.contains(body)), axis.parent))
+        });
+        let (near, far): (Vec<_>, Vec<_>) = turning.partition(|(is_near, _)| *is_near);
+        near.into_iter().chain(far).map(|(_, axis)| axis).collect()
     }
 
     /// Whether a journal tilts in its clearance, and which side has the ends that touch.
