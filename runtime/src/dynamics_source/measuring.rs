@@ -92,9 +92,7 @@ impl Measuring {
         let enough = self.stage == Stage::IsSettled
             || count == 1 && self.settling.has_nearly_settled()
             || count >= MOST_TO_AVERAGE
-            || wearing
-                .steadiness(None, &self.turns)
-                .all(|one| one.scatter.is_some_and(|scatter| scatter <= SCATTERED));
+            || wearing.is_known_to(SCATTERED, &self.turns);
         count >= self.average && enough
     }
 

@@ -59,7 +59,15 @@ impl<'a> Wearing<'a> {
     ) -> impl Iterator<Item = Steadiness> {
         self.joints.iter().map(move |(at, _)| {
             let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
-            Steadiness::of(before.map(|turn| self.wear(*at, turn)), &wears)
+            Steadiness::of_alike(before.map(|turn| self.wear(*at, turn)), &wears)
+        })
+    }
+
+    /// Whether the mean of turns is known to this part of itself, as if they had nothing to do with one another.
+    pub fn is_known_to(&self, part: f64, turns: &[TurnMeasures]) -> bool {
+        self.joints.iter().all(|(at, _)| {
+            let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
+            Steadiness::of(None, &wears).scatter.is_some_and(|scatter| scatter <= part)
         })
     }
 

@@ -13,7 +13,7 @@ use super::steps;
 use super::surface;
 use super::warning::RunWarning;
 use super::warning::step_limits;
-use crate::assemble::{State, assemble_static_contact, check_clearances};
+use crate::assemble::{State, assemble_under_way, check_clearances};
 use crate::clearance_joint::{Clearance, ClearanceState};
 use crate::description::Description;
 use crate::dynamics::Dynamics;
@@ -93,7 +93,7 @@ impl<'a> TurnRunner<'a> {
             return Err(RunError::NoTurns);
         }
         let mut evaluator = Evaluator::new(system, description, parameters)?;
-        let mut state = assemble_static_contact(&mut evaluator, 0.0)?;
+        let mut state = assemble_under_way(&mut evaluator, 0.0)?;
         let mut motion = ConstrainedMotion::new(Dynamics::new(evaluator, singular_pivot));
         motion.learn_sizes(0.0, &state);
         let mut flat = motion.join(&state);
