@@ -2,7 +2,7 @@
 //! In: a table, the description. Out: [`SampledSignals`] in SI. Never knows how they are used.
 
 use linkwear_codegen::diagnostic::nearest;
-use linkwear_codegen::spec::{Dimension, Form, parse_expression};
+use linkwear_codegen::spec::{UnitSize, unit_size};
 use linkwear_runtime::{Description, InputRole, ParameterInfo, SampledSignals, SetupError};
 
 use crate::csv_table::{CsvError, CsvTable};
@@ -17,20 +17,29 @@ pub fn read_inputs(table: &CsvTable<'_>, description: &Description) -> Result<Sa
     for (place, title) in table.header().iter().enumerate() {
         let (name, unit) = parts(title);
         let fault = |message: String, help: String| table.fault_in_header(message, &help);
-        let in_si = |dimension: Dimension, example: &str| {
+        let in_si = |example: &str| {
             let unit = unit.ok_or_else(|| {
                 let help = format!("write its unit into the header: `{name} [{example}]`");
                 fault(format!("column `{title}` has no unit"), help)
             })?;
-            let size = size_of(unit).filter(|(_, found)| *found == dimension).ok_or_else(|| {
-                let help = format!("a unit of the same kind as {example} is needed");
-                fault(format!("column `{title}`: `{unit}` is no unit of `{name}`"), help)
-            })?;
+            // The SI unit of an input is written by the generator, so it reads back.
+            let own = unit_size(example).unwrap_or(UnitSize::ONE);
+            let given =
+                unit_size(unit).filter(|given| given.dimension == own.dimension).ok_or_else(|| {
+                    let help = format!("a unit of the same kind as {example} is needed");
+                    fault(format!("column `{title}`: `{unit}` is no unit of `{name}`"), help)
+                })?;
+            if given.turning.differs_from(own.turning) {
+                let (counts, needed) = (given.turning.counted(), own.turning.counted());
+                let message = format!("column `{title}` counts {counts}, but `{name}` counts {needed}");
+                let help = format!("a turn is 2*pi rad; the file gives `{name}` in {example}");
+                return Err(fault(message, help));
+            }
             let values = table.numbers_at(place)?;
-            Ok::<Vec<f64>, CsvError>(values.into_iter().map(|value| value * size.0).collect())
+            Ok::<Vec<f64>, CsvError>(values.into_iter().map(|value| value * given.size).collect())
         };
         if matches!(name, "t" | "time") {
-            if times.replace(in_si(Dimension::TIME, "s")?).is_some() {
+            if times.replace(in_si("s")?).is_some() {
                 return Err(fault("two columns give the time".to_owned(), "delete one of them".to_owned()));
             }
             continue;
@@ -48,9 +57,7 @@ pub fn read_inputs(table: &CsvTable<'_>, description: &Description) -> Result<Sa
             let message = format!("two columns give the input `{}`", input.name);
             return Err(fault(message, "delete one of them".to_owned()));
         }
-        // The SI unit of an input is written by the generator, so it reads back.
-        let dimension = size_of(&input.unit).map_or(Dimension::NONE, |(_, dimension)| dimension);
-        columns.push((input.name.to_string(), in_si(dimension, &input.unit)?));
+        columns.push((input.name.to_string(), in_si(&input.unit)?));
     }
     let Some(times) = times else {
         let help = "begin the header with `t [s]`".to_owned();
@@ -81,14 +88,5 @@ pub(crate) fn parts(title: &str) -> (&str, Option<&str>) {
     match title.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')) {
         Some((name, unit)) => (name.trim(), Some(unit.trim())),
         None => (title.trim(), None),
-    }
-}
-
-/// Size of a unit in SI and its dimension.
-pub(crate) fn size_of(unit: &str) -> Option<(f64, Dimension)> {
-    let text = if unit == "1" { unit.to_owned() } else { format!("1 {unit}") };
-    match parse_expression(&text, &|_| false).ok()?.form {
-        Form::Number { value, dimension, .. } => Some((value, dimension)),
-        _ => None,
     }
 }

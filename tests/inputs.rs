@@ -120,6 +120,32 @@ fn a_drive_follows_samples_with_their_rates() {
 }
 
 #[test]
+fn columns_count_turns_where_their_inputs_do() {
+    let folder = Folder::new("inputs-turns");
+    let text =
+        DRIVE.replace("angle = { unit = \"deg\", default = 10 }", "rate = \"1 Hz\"\nspin = \"1 rad/s\"");
+    let text = text.replace("2*angle", "0.01*sin(2*pi*rate*(1 s)) + 0.01*sin(spin*(1 s))");
+    let file = folder.path("m.toml");
+    std::fs::write(&file, text).unwrap();
+    let run = |header: &str| {
+        let inputs = samples(&folder, header, 4, |t| format!("{t},1"));
+        linkwear(&["simulate", &file, "--time", "2", "--inputs", &inputs])
+    };
+    for (header, message, cure) in [
+        ("t [s],rate [rad/s]", "counts radians, but `rate` counts turns", "gives `rate` in Hz"),
+        ("t [s],spin.u [rpm]", "counts turns, but `spin.u` counts radians", "gives `spin.u` in rad/s"),
+    ] {
+        let answer = run(header);
+        assert_ne!(answer.code, 0, "{header}");
+        assert!(answer.err.contains(message) && answer.err.contains(cure), "{}", answer.err);
+    }
+    for header in ["t [s],rate [rpm]", "t [s],rate.u [1/s]", "t [s],spin [deg/s]"] {
+        let answer = run(header);
+        assert_eq!(answer.code, 0, "{header}: {}", answer.err);
+    }
+}
+
+#[test]
 fn a_short_pulse_is_not_leapt_over() {
     let folder = Folder::new("inputs-pulse");
     let quiet = MOTOR.replace("\"-9.81 m/s^2\"", "\"0 m/s^2\"").replace("load = \"2 N\"", "load = \"0 N\"");

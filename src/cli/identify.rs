@@ -6,6 +6,7 @@ mod read;
 
 use std::path::Path;
 
+use linkwear_codegen::spec::unit_size;
 use linkwear_runtime::{Integrator, RevolutionSettings};
 use serde_json::{Map, Value, json};
 
@@ -83,7 +84,7 @@ fn revolutions(method: Option<Integrator>) -> RevolutionSettings {
 
 /// Size of the unit of a parameter's bounds, and the SI unit.
 fn unit(free: &Free, cases: &Cases) -> (f64, String) {
-    let size = crate::inputs::size_of(&free.unit).map_or(1.0, |(size, _)| size);
+    let size = unit_size(&free.unit).map_or(1.0, |unit| unit.size);
     let column = cases.parameters().iter().find(|column| column.name == free.name);
     (size, column.map_or_else(String::new, |column| column.unit.clone()))
 }

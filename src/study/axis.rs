@@ -1,7 +1,7 @@
 //! A parameter that varies, and over what. In: `speed=5Hz..20Hz:4`, `speed=5Hz,10Hz`. Out: texts of quantities, as `--set` takes them.
 //! Never knows which parameters there are.
 
-use linkwear_codegen::spec::{Dimension, as_written, parse_expression};
+use linkwear_codegen::spec::{as_written, unit_size};
 use thiserror::Error;
 
 /// A parameter and its values.
@@ -44,7 +44,7 @@ pub enum AxisError {
     /// An end is no number with a unit.
     #[error("the end `{0}` of a range is no number with a unit")]
     End(String),
-    /// The ends have different dimensions.
+    /// The ends have different dimensions, or one counts turns and the other radians.
     #[error("the ends of `{text}` differ: {first} and {last}")]
     Ends {
         /// The range.
@@ -136,20 +136,25 @@ impl Range {
             },
         };
         let end = |text: &str| as_number(text).ok_or_else(|| AxisError::End(text.trim().to_owned()));
-        let ((a, unit), (b, of_last)) = (end(first)?, end(last)?);
-        let unit = if unit.is_empty() { of_last.clone() } else { unit };
-        if of_last.is_empty() || of_last == unit {
+        let ((a, unit), (b, last_unit)) = (end(first)?, end(last)?);
+        let unit = if unit.is_empty() { last_unit.clone() } else { unit };
+        if last_unit.is_empty() || last_unit == unit {
             return Ok(Self { ends: [a, b], unit, count });
         }
-        let size = |unit: &str| parse_expression(&format!("1 {unit}"), &|_| false).ok()?.quantity();
-        let (Some((scale, first)), Some((other, last))) = (size(&unit), size(&of_last)) else {
+        let (Some(of_first), Some(of_last)) = (unit_size(&unit), unit_size(&last_unit)) else {
             return Err(AxisError::End(last.trim().to_owned()));
         };
-        if first != last {
-            let [first, last] = [first, last].map(Dimension::description);
-            return Err(AxisError::Ends { text: written.to_owned(), first, last });
-        }
-        Ok(Self { ends: [a, b * other / scale], unit, count })
+        let both = [of_first, of_last];
+        let told = if of_first.dimension != of_last.dimension {
+            both.map(|end| end.dimension.description())
+        } else if of_first.turning.differs_from(of_last.turning) {
+            let units = [&unit, &last_unit];
+            std::array::from_fn(|end| format!("{} [{}]", both[end].turning.counted(), units[end]))
+        } else {
+            return Ok(Self { ends: [a, b * of_last.size / of_first.size], unit, count });
+        };
+        let [first, last] = told;
+        Err(AxisError::Ends { text: written.to_owned(), first, last })
     }
 
     /// Ends are met exactly, and round values between round ends.
@@ -225,6 +230,11 @@ mod tests {
         assert_eq!(error("x=1..2:1"), Count("1".into()));
         assert_eq!(error("x=1..2:many"), Count("many".into()));
         assert_eq!(error("x=a..2:3"), End("a".into()));
+        for range in ["speed=1Hz..4rad/s:2", "speed=1Hz..4rad/s"] {
+            let told = error(range).to_string();
+            assert!(told.contains("differ: turns [Hz] and radians [rad/s]"), "{told}");
+        }
+        assert_eq!(grid("speed=1Hz..120rpm:2"), ["1 Hz", "2 Hz"]);
         assert!(error("x=1 mm..2 s:3").to_string().contains("a length [m] and a time [s]"));
     }
 }

@@ -7,7 +7,7 @@
 use crate::diagnostic::Code;
 use crate::id::{BodyId, JointId, ParameterId, PointId};
 use crate::source::{Sources, Span};
-use crate::spec::Dimension;
+use crate::spec::{Dimension, Turning};
 
 mod body;
 mod clearance;
@@ -112,6 +112,8 @@ pub struct Parameter {
     pub value: f64,
     /// Dimension, hence SI unit.
     pub dimension: Dimension,
+    /// Whether it counts turns or radians, as far as its unit or formula tells.
+    pub turning: Turning,
     /// Number and unit as the user wrote them; nothing for a formula.
     pub written: Option<(f64, String)>,
     /// Stays a run-time field of the generated struct.

@@ -1,6 +1,7 @@
 //! Named values of a run.
 
 use super::Formula;
+use crate::spec::Turning;
 
 /// A formula with a name and a column.
 #[derive(Clone, Debug)]
@@ -9,4 +10,6 @@ pub struct Sensor {
     pub name: String,
     /// Its value, over all that forces may depend on.
     pub value: Formula,
+    /// Whether it counts turns or radians, as far as the formula tells.
+    pub turning: Turning,
 }

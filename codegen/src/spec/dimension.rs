@@ -1,5 +1,7 @@
 //! Physical dimensions as integer exponents, and how to say them.
 
+use super::turning::Turning;
+
 /// Exponents of length, mass, time. Angles carry none; `rad` and `deg` are units of 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Dimension {
@@ -102,6 +104,20 @@ impl Dimension {
             0 => above,
             1 => format!("{above}/{}", below[0]),
             _ => format!("{above}/({})", below.join(" ")),
+        }
+    }
+
+    /// The SI unit of a quantity that counts turns or radians: what is per second alike is Hz or rad/s.
+    pub fn unit_counting(self, turning: Turning) -> String {
+        let over = match self {
+            Self { length: 0, mass: 0, time: -1 } => ["Hz", "rad/s"],
+            Self { length: 0, mass: 0, time: -2 } => ["Hz/s", "rad/s^2"],
+            _ => return self.si_unit(),
+        };
+        match turning {
+            Turning::TURNS => over[0].to_owned(),
+            Turning::ANGLE => over[1].to_owned(),
+            _ => self.si_unit(),
         }
     }
 

@@ -60,7 +60,9 @@ pub use sensor::{Sensor, SensorTable};
 pub use start::{StartSpec, StartTable};
 pub use state::StateSpec;
 pub use stop::StopSpec;
-pub use syntax::{Expression, Form, Operator, Relation, SyntaxError, as_written, parse_expression};
+pub use syntax::{
+    Expression, Form, Operator, Relation, SyntaxError, UnitSize, as_written, parse_expression, unit_size,
+};
 pub use table::{Interpolation, Outside, TableSpec};
 pub use told::Told;
 pub use turning::Turning;

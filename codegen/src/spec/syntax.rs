@@ -13,6 +13,9 @@ mod units;
 
 pub use expression::{Expression, Form, Operator, Relation, SyntaxError};
 
+use super::dimension::Dimension;
+use super::turning::Turning;
+
 /// Longest formula [bytes]: far above any real one.
 const LONGEST: usize = 2000;
 
@@ -25,6 +28,32 @@ pub fn as_written(text: &str) -> Option<(f64, &str)> {
     let first = tokens.first()?;
     match first.kind {
         lex::Kind::Number(number) => Some((sign * number, digits[first.range.end..].trim())),
+        _ => None,
+    }
+}
+
+/// What a unit is, as a heading or an option gives it alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct UnitSize {
+    /// How much it is in SI.
+    pub size: f64,
+    /// Its dimension.
+    pub dimension: Dimension,
+    /// Turns and angles in it: Hz and rad/s have one dimension, and differ by 2 pi.
+    pub turning: Turning,
+}
+
+impl UnitSize {
+    /// No unit.
+    pub const ONE: Self =
+        Self { size: 1.0, dimension: Dimension::NONE, turning: Turning { turns: 0, angles: 0 } };
+}
+
+/// Reads a unit; `1` is none.
+pub fn unit_size(unit: &str) -> Option<UnitSize> {
+    let text = if unit == "1" { unit.to_owned() } else { format!("1 {unit}") };
+    match parse_expression(&text, &|_| false).ok()?.form {
+        Form::Number { value: size, dimension, turning, .. } => Some(UnitSize { size, dimension, turning }),
         _ => None,
     }
 }
@@ -44,7 +73,6 @@ pub fn parse_expression(text: &str, is_name: &dyn Fn(&str) -> bool) -> Result<Ex
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spec::Dimension;
 
     fn read(text: &str) -> Result<Expression, SyntaxError> {
         parse_expression(text, &|name| ["m", "s", "L1", "speed", "t", "pi"].contains(&name))

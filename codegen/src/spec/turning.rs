@@ -34,6 +34,33 @@ impl Turning {
     pub fn is_turns_beside(self, other: Self) -> bool {
         self.turns > 0 && other.turns == 0 && other.angles > 0
     }
+
+    /// Whether one counts turns and the other radians: such numbers cannot stand for each other.
+    pub fn differs_from(self, other: Self) -> bool {
+        self.is_turns_beside(other) || other.is_turns_beside(self)
+    }
+
+    /// Whether it is radians per turn or turns per radian: a ratio of rates that is off by 2 pi.
+    pub fn is_mixed(self) -> bool {
+        (self.turns > 0 && self.angles < 0) || (self.turns < 0 && self.angles > 0)
+    }
+
+    /// What it counts, where it differs from another.
+    pub fn counted(self) -> &'static str {
+        if self.turns > 0 { "turns" } else { "radians" }
+    }
+
+    /// What one of it is in terms of `other`: 2 pi for turns where radians are counted.
+    pub fn in_terms_of(self, other: Self) -> f64 {
+        let power = if self.is_turns_beside(other) {
+            self.turns
+        } else if other.is_turns_beside(self) {
+            -other.turns
+        } else {
+            0
+        };
+        (2.0 * std::f64::consts::PI).powi(power.into())
+    }
 }
 
 #[cfg(test)]
@@ -50,5 +77,15 @@ mod tests {
         // 2 pi t/T with T = 1/f.
         let period = Turning::TURNS.to_power(-1);
         assert_eq!(product([Turning::ANGLE, period.to_power(-1), none]), Turning::ANGLE);
+    }
+
+    #[test]
+    fn a_turn_is_two_pi_radians_and_both_differ_from_each_other_alone() {
+        let (turns, angle, none) = (Turning::TURNS, Turning::ANGLE, Turning::default());
+        assert!(turns.differs_from(angle) && angle.differs_from(turns));
+        assert!(!turns.differs_from(none) && !none.differs_from(angle) && !turns.differs_from(turns));
+        assert_eq!(turns.in_terms_of(angle) * angle.in_terms_of(turns), 1.0);
+        assert_eq!((turns.in_terms_of(angle), turns.in_terms_of(none)), (std::f64::consts::TAU, 1.0));
+        assert!(angle.times(turns.to_power(-1)).is_mixed() && !angle.times(turns).is_mixed());
     }
 }

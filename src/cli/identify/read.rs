@@ -4,14 +4,14 @@
 use std::path::Path;
 
 use linkwear_codegen::diagnostic::nearest;
-use linkwear_codegen::spec::{Dimension, as_written};
+use linkwear_codegen::spec::{Dimension, UnitSize, as_written, unit_size};
 use linkwear_runtime::{Channel, Description, Integrator, Span, channels};
 
 use super::arguments::IdentifyArguments;
 use crate::cli::failure::Failure;
 use crate::csv_table::{CsvError, CsvTable};
 use crate::identify::{Curve, CurveColumn, Inspections};
-use crate::inputs::{parts, size_of};
+use crate::inputs::parts;
 
 /// The measured curve in SI, with the SHA-256 of its file.
 pub fn curve(
@@ -134,11 +134,18 @@ pub fn inspections(
     Ok(all)
 }
 
+/// How much of an SI unit another is; nothing if it is of another kind. The machine's speed is one, whether a gauge counts turns
+/// of it or radians.
+fn in_terms_of(si: &str, unit: UnitSize) -> Option<f64> {
+    let own = unit_size(si).unwrap_or(UnitSize::ONE);
+    (unit.dimension == own.dimension).then(|| unit.size * unit.turning.in_terms_of(own.turning))
+}
+
 /// A column in SI; its unit stands in its title, or it has none where none is needed.
 fn in_si(table: &CsvTable<'_>, place: usize, si: &str) -> Result<Vec<f64>, Failure> {
     let title = table.header().get(place).cloned().unwrap_or_default();
     let (name, unit) = parts(&title);
-    let needed = size_of(si).map_or(Dimension::NONE, |(_, dimension)| dimension);
+    let needed = unit_size(si).map_or(Dimension::NONE, |own| own.dimension);
     let unit = match unit {
         Some(unit) => unit,
         None if needed == Dimension::NONE => "1",
@@ -147,7 +154,7 @@ fn in_si(table: &CsvTable<'_>, place: usize, si: &str) -> Result<Vec<f64>, Failu
             return Err(fault(table, format!("column `{title}` has no unit"), &help));
         }
     };
-    let Some((size, _)) = size_of(unit).filter(|(_, dimension)| *dimension == needed) else {
+    let Some(size) = unit_size(unit).and_then(|unit| in_terms_of(si, unit)) else {
         let help = format!("a unit of the same kind as {si} is needed");
         return Err(fault(table, format!("column `{title}`: `{unit}` is no unit of `{name}`"), &help));
     };
@@ -182,10 +189,10 @@ fn rising(table: &CsvTable<'_>, at: &[f64], what: &str) -> Result<(), Failure> {
 
 /// `0.02 N m`, positive.
 fn level_in_si(option: &str, text: &str, si: &str) -> Result<f64, Failure> {
-    let needed = size_of(si).map_or(Dimension::NONE, |(_, dimension)| dimension);
+    let needed = unit_size(si).map_or(Dimension::NONE, |own| own.dimension);
     let found = as_written(text).and_then(|(value, unit)| {
-        let (size, dimension) = if unit.is_empty() { (1.0, Dimension::NONE) } else { size_of(unit)? };
-        (dimension == needed).then_some(value * size)
+        let unit = if unit.is_empty() { UnitSize::ONE } else { unit_size(unit)? };
+        in_terms_of(si, unit).map(|size| value * size)
     });
     found.filter(|level| *level > 0.0 && level.is_finite()).ok_or_else(|| {
         let help = if needed == Dimension::NONE {
@@ -203,4 +210,29 @@ fn twice(table: &CsvTable<'_>, name: &str) -> Failure {
 
 fn fault(table: &CsvTable<'_>, message: String, help: &str) -> Failure {
     table.fault_in_header(message, help).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn speeds_in_turns_and_in_radians_are_taken_as_the_output_has_them() {
+        let size =
+            |si: &str, unit: &str| unit_size(unit).and_then(|unit| in_terms_of(si, unit)).unwrap_or(0.0);
+        let tau = std::f64::consts::TAU;
+        for (si, unit, expected) in [
+            ("rad/s", "rpm", tau / 60.0),
+            ("rad/s", "Hz", tau),
+            ("Hz", "rad/s", 1.0 / tau),
+            ("rad/s", "rad/s", 1.0),
+            ("rad/s", "1/s", 1.0),
+            ("1/s", "Hz", 1.0),
+            ("rad", "deg", tau / 360.0),
+            ("rad/s", "m", 0.0),
+        ] {
+            let found = size(si, unit);
+            assert!((found - expected).abs() <= 1e-15 * expected, "{unit} in {si}: {found}");
+        }
+    }
 }

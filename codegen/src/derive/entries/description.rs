@@ -237,9 +237,11 @@ impl Deriver<'_> {
 }
 
 fn parameter_info(parameter: &Parameter) -> ParameterInfo {
-    ParameterInfo {
-        name: parameter.name.clone().into(),
-        unit: parameter.dimension.si_unit().into(),
-        default: parameter.value,
-    }
+    // Values of inputs come with units of their own: a turn is no radian there.
+    let unit = if parameter.input {
+        parameter.dimension.unit_counting(parameter.turning)
+    } else {
+        parameter.dimension.si_unit()
+    };
+    ParameterInfo { name: parameter.name.clone().into(), unit: unit.into(), default: parameter.value }
 }

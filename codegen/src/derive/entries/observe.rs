@@ -66,7 +66,7 @@ impl<'a, 'g> Channels<'a, 'g> {
         }
         let parameters = mechanism.parameters.iter().zip(&deriver.geometry.inputs.parameters);
         for (input, value) in parameters.filter(|(parameter, _)| parameter.input) {
-            list.push(format!("{}.u", input.name), input.dimension.si_unit(), *value);
+            list.push(format!("{}.u", input.name), input.dimension.unit_counting(input.turning), *value);
         }
         list.own_states();
         list.sensors(masses);
@@ -245,7 +245,8 @@ impl<'a, 'g> Channels<'a, 'g> {
         let by: Vec<_> = asked.iter().map(|(_, symbol)| *symbol).zip(values).collect();
         let mut values = g.with(&lowered, &by).into_iter();
         for (sensor, value) in mechanism.sensors.iter().zip(&mut values) {
-            self.push(format!("{}.value", sensor.name), sensor.value.dimension.si_unit(), value);
+            let unit = sensor.value.dimension.unit_counting(sensor.turning);
+            self.push(format!("{}.value", sensor.name), unit, value);
         }
         for (number, sampler) in samplers.iter().enumerate() {
             self.push(format!("{SAMPLE}{}", number + 1), "s", g.number(sampler.sample_time));

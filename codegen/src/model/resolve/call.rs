@@ -225,7 +225,7 @@ impl Resolver<'_> {
     /// The value of a table.
     fn table_value(&mut self, at: usize, arguments: &[Expression], here: Here<'_>) -> Resolved {
         let Tabled { table, argument, value } = &self.tables[at];
-        let (table, needed, value) = (table.clone(), *argument, *value);
+        let (table, needed, value) = (table.clone(), argument.dimension, value.dimension);
         let [argument] = arguments else {
             let message = format!("the table `{}` takes 1 argument, not {}", table.name, arguments.len());
             self.refuse_in(here, Code::UnknownFunction, &message).help(format!("write `{}(x)`", table.name));

@@ -9,7 +9,7 @@ use crate::diagnostic::{Code, Severity};
 use crate::id::StateId;
 use crate::model::{self, Formula, Sampler, StateVariable, Term};
 use crate::source::Span;
-use crate::spec::{At, ControllerSpec, Dimension, Name, Quantity, Table};
+use crate::spec::{At, ControllerSpec, Dimension, Name, Quantity, Table, Turning};
 
 /// A controller that is being read.
 #[derive(Clone, Copy)]
@@ -50,7 +50,9 @@ impl Resolver<'_> {
         let Controllers { known, states, samplers } = std::mem::take(&mut self.controllers);
         let outputs = known.into_iter().filter_map(|own| Some((own.name, own.output?)));
         let continuous = outputs.filter(|(_, output)| !matches!(output.term, Term::State(_)));
-        let columns = continuous.map(|(name, value)| model::Sensor { name, value }).collect();
+        let columns = continuous
+            .map(|(name, value)| model::Sensor { name, value, turning: Turning::default() })
+            .collect();
         (states, samplers, columns)
     }
 

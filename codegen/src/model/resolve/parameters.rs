@@ -40,6 +40,7 @@ impl Resolver<'_> {
             name: name.value.clone(),
             value: f64::NAN,
             dimension: Dimension::NONE,
+            turning: Turning::default(),
             written: None,
             tunable: false,
             input: false,
@@ -53,7 +54,6 @@ impl Resolver<'_> {
         self.values.resize(parameters, f64::NAN);
         self.written_out.resize(parameters, None);
         self.used.resize(parameters, false);
-        self.turning.resize(parameters, Turning::default());
     }
 
     /// Reports overrides of what is neither a parameter nor an input.
@@ -112,7 +112,7 @@ impl Resolver<'_> {
         overrides: &Overrides,
     ) -> model::Formula {
         let mut formula = self.formula(quantity, None, allowed, &format!("`{}`", name.value));
-        self.turning[position] = self.turns_of(quantity).of;
+        self.parameters[position].turning = self.turns_of(quantity).of;
         self.parameters[position].written = written(quantity);
         let given = overrides.0.iter().rev().find(|(given, _)| *given == name.value);
         if let Some((_, text)) = given {
@@ -147,12 +147,9 @@ impl Resolver<'_> {
         }
         let unit = self.parameters[position].written.as_ref().map(|(_, unit)| unit.clone());
         let unit = unit.filter(|unit| !unit.is_empty()).unwrap_or_else(|| dimension.si_unit());
-        let (own, given) = (self.turning[position], self.turns_of(&quantity).of);
-        if own.is_turns_beside(given) || given.is_turns_beside(own) {
-            let kind = |is: Turning| if is.turns > 0 { "turns" } else { "radians" };
-            let message = format!("{what} counts {}, but `{}` counts {}", kind(given), name.value, kind(own));
-            self.refuse(Code::UnitMismatch, span, message)
-                .help(format!("a turn is 2*pi rad; the file gives `{}` in {unit}", name.value));
+        let (own, given) = (self.parameters[position].turning, self.turns_of(&quantity).of);
+        if let Some((message, help)) = self.other_turning(position, given, &what) {
+            self.refuse(Code::UnitMismatch, span, message).help(help);
             return model::Formula::number(f64::NAN, dimension);
         }
         if let (Some((number, "")), true) = (as_written(text), dimension != Dimension::NONE && text != "0") {
@@ -180,7 +177,7 @@ impl Resolver<'_> {
                 return model::Formula::number(f64::NAN, dimension);
             }
         }
-        self.turning[position] = if given == Turning::default() { own } else { given };
+        self.parameters[position].turning = if given == Turning::default() { own } else { given };
         self.parameters[position].written = written(&quantity);
         self.formula(&quantity, Some(dimension), Allowed::CONSTANTS, &what)
     }

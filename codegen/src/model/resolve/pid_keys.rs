@@ -22,12 +22,17 @@ impl Resolver<'_> {
             );
             return None;
         };
+        let both = [(measured, what("measured")), (setpoint, what("setpoint"))];
         let measured = self.formula(measured, None, Allowed::STATE, &what("measured"));
         if matches!(measured.term, Term::Number(value) if value.is_nan()) {
             return None;
         }
         let of = measured.dimension;
         let setpoint = self.formula(setpoint, Some(of), Allowed::STATE, &what("setpoint"));
+        if self.turns_of(both[0].0).of.differs_from(self.turns_of(both[1].0).of) {
+            // One of them counts radians, and is silent.
+            both.iter().for_each(|(written, what)| self.warn_turns_as_angle(written, what));
+        }
         let unit = self.unit_of_output(draft, of)?;
         let mut gain = |key: &str, written: &Option<Quantity>, seconds: i32| {
             let per = unit

@@ -26,8 +26,9 @@ pub(super) struct Resolver<'a> {
     pub(super) values: Vec<f64>,
     /// Parameters that are not tunable but follow from tunable ones are written out where they are used.
     pub(super) written_out: Vec<Option<Term>>,
-    /// Turns and angles of the parameters.
-    pub(super) turning: Vec<Turning>,
+    /// Turns and angles of the states that the file declares, and of the sensors so far.
+    pub(super) state_turning: Vec<Turning>,
+    pub(super) sensor_turning: Vec<Turning>,
     pub(super) used: Vec<bool>,
     pub(super) points: Vec<Point>,
     pub(super) joint_models: Vec<JointModel>,

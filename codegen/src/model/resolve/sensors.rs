@@ -20,6 +20,8 @@ impl Resolver<'_> {
                     .help(r#"add `value = "..."`, a formula"#);
             }
             self.sensors.push(formula);
+            self.sensor_turning
+                .push(sensor.value.value().map(|value| self.turns_of(value).of).unwrap_or_default());
         }
     }
 
@@ -46,10 +48,13 @@ impl Resolver<'_> {
 
     /// All of them, for columns.
     pub(super) fn take_sensors(&mut self, table: &Table<Sensor>) -> Vec<model::Sensor> {
-        let values = std::mem::take(&mut self.sensors);
+        let values =
+            std::mem::take(&mut self.sensors).into_iter().zip(std::mem::take(&mut self.sensor_turning));
         let named = table.0.iter().zip(values);
         named
-            .filter_map(|((name, _), value)| Some(model::Sensor { name: name.value.clone(), value: value? }))
+            .filter_map(|((name, _), (value, turning))| {
+                Some(model::Sensor { name: name.value.clone(), value: value?, turning })
+            })
             .collect()
     }
 }

@@ -10,7 +10,7 @@ use crate::id::ParameterId;
 use crate::input::read_named;
 use crate::limits;
 use crate::model::Segment;
-use crate::spec::{Dimension, Form, Name, parse_expression};
+use crate::spec::{Dimension, Name, UnitSize, unit_size};
 
 /// Segments that a series may come to: each has its own dynamics.
 const MOST_SEGMENTS: usize = 64;
@@ -78,8 +78,8 @@ impl Resolver<'_> {
             let (name, unit) =
                 title.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')).unwrap_or((title, "1"));
             let (name, unit) = (name.trim(), unit.trim());
-            let (size, dimension) =
-                size_of(unit).ok_or_else(|| format!("`{unit}` of column `{title}` is no unit"))?;
+            let UnitSize { size, dimension, turning } =
+                unit_size(unit).ok_or_else(|| format!("`{unit}` of column `{title}` is no unit"))?;
             if matches!(name, "t" | "time") {
                 if dimension != Dimension::TIME || time.replace((at, size)).is_some() {
                     return Err("one column gives the time, `t [s]`".to_owned());
@@ -96,6 +96,9 @@ impl Resolver<'_> {
             if parameter.dimension != dimension {
                 let needed = parameter.dimension.description();
                 return Err(format!("column `{title}`: `{name}` is {needed}"));
+            }
+            if let Some((message, help)) = self.other_turning(id, turning, &format!("column `{title}`")) {
+                return Err(format!("{message}: {help}"));
             }
             if places.iter().any(|(known, ..)| *known == id) {
                 return Err(format!("two columns give `{name}`"));
@@ -176,15 +179,6 @@ pub(super) fn cells(row: &str) -> impl Iterator<Item = &str> {
 fn range(values: &[f64]) -> (f64, f64) {
     let low = values.iter().copied().fold(f64::INFINITY, f64::min);
     (low, values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
-}
-
-/// Size of a unit in SI and its dimension.
-pub(super) fn size_of(unit: &str) -> Option<(f64, Dimension)> {
-    let text = if unit == "1" { unit.to_owned() } else { format!("1 {unit}") };
-    match parse_expression(&text, &|_| false).ok()?.form {
-        Form::Number { value, dimension, .. } => Some((value, dimension)),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

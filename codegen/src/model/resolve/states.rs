@@ -15,6 +15,8 @@ impl Resolver<'_> {
                 |initial| self.formula(initial, None, Allowed::PARAMETERS, &place("initial", "state", name)),
             );
             let known = self.value(&initial).is_finite();
+            let turning = state.value.initial.as_ref().map(|initial| self.turns_of(initial).of);
+            self.state_turning.push(turning.unwrap_or_default());
             self.states.push(known.then_some(initial));
         }
     }

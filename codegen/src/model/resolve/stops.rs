@@ -268,6 +268,9 @@ impl Resolver<'_> {
         let Some(written) = written else { return Some(Formula::number(default, dimension)) };
         let what = place(key, "stop", draft.name);
         let formula = self.formula(written, Some(dimension), Allowed::PARAMETERS, &what);
+        if draft.is == Coordinate::Angle {
+            self.warn_turns_as_angle(written, &what);
+        }
         self.check_positive(&formula, false, &what);
         (self.value(&formula) > 0.0).then_some(formula)
     }

@@ -7,16 +7,18 @@ use std::sync::Arc;
 use super::call::is_function;
 use super::quantity::Allowed;
 use super::resolver::Resolver;
-use super::series::{cells, size_of};
-use super::tabled::Tabled;
+use super::series::cells;
+use super::tabled::{Counted, Tabled};
 use crate::diagnostic::{Code, brief};
 use crate::input::read_named;
 use crate::limits;
 use crate::model::DataTable;
-use crate::spec::{At, Dimension, Literal, Name, Outside, Quantity, Table, TableSpec};
+use crate::spec::{
+    At, Dimension, Literal, Name, Outside, Quantity, Table, TableSpec, Turning, UnitSize, unit_size,
+};
 
-/// Columns in SI with their dimensions.
-type Columns = [(Vec<f64>, Dimension); 2];
+/// Columns in SI with what they are of.
+type Columns = [(Vec<f64>, Counted); 2];
 
 impl Resolver<'_> {
     pub(super) fn resolve_tables(&mut self, written: &Table<TableSpec>) {
@@ -66,8 +68,9 @@ impl Resolver<'_> {
     }
 
     /// Quantities of one dimension; a bare zero has any.
-    fn column(&mut self, list: &At<Vec<Quantity>>, what: &str) -> Option<(Vec<f64>, Dimension)> {
+    fn column(&mut self, list: &At<Vec<Quantity>>, what: &str) -> Option<(Vec<f64>, Counted)> {
         let mut expected: Option<Dimension> = None;
+        let mut turning = Turning::default();
         let mut values = Vec::new();
         for quantity in &list.value {
             if matches!(quantity.value, Literal::Number(0.0)) {
@@ -80,9 +83,10 @@ impl Resolver<'_> {
                 return None;
             }
             expected = Some(formula.dimension);
+            turning = self.warn_turns_among(quantity, turning, what);
             values.push(value);
         }
-        Some((values, expected.unwrap_or_default()))
+        Some((values, Counted { dimension: expected.unwrap_or_default(), turning }))
     }
 
     fn read_columns(&mut self, name: &Name, file: &Name) -> Option<Columns> {
@@ -156,17 +160,18 @@ fn columns_of(text: &str) -> Result<Columns, String> {
     let units = [argument, value].map(|title| {
         let (_, unit) =
             title.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')).unwrap_or((title, "1"));
-        size_of(unit.trim()).ok_or_else(|| format!("`{}` of column `{title}` is no unit", unit.trim()))
+        unit_size(unit.trim()).ok_or_else(|| format!("`{}` of column `{title}` is no unit", unit.trim()))
     });
     let [argument, value] = units;
     let units = [argument?, value?];
-    let mut columns = units.map(|(_, dimension)| (Vec::new(), dimension));
+    let mut columns =
+        units.map(|UnitSize { dimension, turning, .. }| (Vec::new(), Counted { dimension, turning }));
     for (line, row) in lines {
         let cells: Vec<&str> = cells(row).collect();
         if cells.len() != 2 {
             return Err(format!("line {line} has {} cells, not two", cells.len()));
         }
-        for ((column, (size, _)), cell) in columns.iter_mut().zip(units).zip(cells) {
+        for ((column, UnitSize { size, .. }), cell) in columns.iter_mut().zip(units).zip(cells) {
             let number = cell.parse::<f64>().ok().map(|number| number * size);
             let number = number.filter(|number| number.is_finite());
             column.0.push(number.ok_or_else(|| format!("line {line} has a cell that is no number"))?);
