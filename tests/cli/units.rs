@@ -251,7 +251,7 @@ fn a_part_that_was_replaced_has_no_remaining_life_but_what_took_its_place() {
         |unit: &str| linkwear(&["predict", &out, "--threshold", "30", "--unit", unit, "--format", "json"]);
     for (unit, cure) in [("u0", "--unit u0#2"), ("u1", "--current LEVEL")] {
         let told = predict(unit);
-        assert!(told.code == 1 && told.err.contains(cure) && told.err.contains("replaced"), "{}", told.err);
+        assert!(told.code == 1 && told.out.contains(cure) && told.out.contains("replaced"), "{}", told.out);
     }
     assert_eq!(predict("u2").json()["current"], 0.25);
     assert!(predict("u0#2").json()["current"].as_f64().is_some_and(|wear| wear > 0.25));
