@@ -14,9 +14,12 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// A number with so many decimals, for columns; from 1e9 on with an exponent.
+/// A number with so many decimals, for columns; with an exponent from 1e9 on, and where decimals would leave it less than
+/// three significant digits.
 pub fn decimals(value: f64, digits: usize) -> String {
-    if value.abs() < 1e9 { format!("{value:.digits$}") } else { format!("{value:.digits$e}") }
+    let (size, least) = (value.abs(), 10_f64.powi(2 - i32::try_from(digits).unwrap_or(0)));
+    let is_plain = value == 0.0 || (least.min(1.0)..1e9).contains(&size);
+    if is_plain { format!("{value:.digits$}") } else { format!("{value:.digits$e}") }
 }
 
 #[cfg(test)]
@@ -30,8 +33,15 @@ mod tests {
     }
 
     #[test]
+    fn decimals_of_tiny_numbers_have_an_exponent() {
+        let shown = [0.0, 1.766e-8, -9.9e-5, 1e-4, 0.25, f64::NAN].map(|value| decimals(value, 6));
+        assert_eq!(shown, ["0.000000", "1.766000e-8", "-9.900000e-5", "0.000100", "0.250000", "NaN"]);
+        assert_eq!([0.099, 0.1].map(|value| decimals(value, 3)), ["9.900e-2", "0.100"]);
+    }
+
+    #[test]
     fn decimals_of_huge_numbers_have_an_exponent() {
-        let shown = [0.25, -999_999_999.0, 1e9, 1e300, f64::INFINITY].map(|value| decimals(value, 2));
-        assert_eq!(shown, ["0.25", "-999999999.00", "1.00e9", "1.00e300", "inf"]);
+        let shown = [1.25, -999_999_999.0, 1e9, 1e300, f64::INFINITY].map(|value| decimals(value, 2));
+        assert_eq!(shown, ["1.25", "-999999999.00", "1.00e9", "1.00e300", "inf"]);
     }
 }

@@ -36,6 +36,7 @@ fn warnings_come_back() {
         pressure: 2e9,
         pressure_speed: 0.0,
         hertz_half_width: 0.0,
+        half_angle: 0.0,
         penetration: 0.0,
         depth_per_cycle: 0.0,
         clearance: 1e-5,

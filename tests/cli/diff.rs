@@ -127,6 +127,46 @@ fn mechanism_files_are_compared_by_what_they_say_not_by_how() {
 }
 
 #[test]
+fn files_that_say_another_thing_are_not_identical() {
+    let folder = Folder::new("diff-apart");
+    let pairs = [
+        ("a = \"1 s\"", "a = \"1 m\""),
+        ("a = \"10 N/m\"", "a = \"10 N m\""),
+        ("a = 3", "a = \"3 kg\""),
+        ("a = \"0 m\"", "a = \"0 kg\""),
+        ("a = inf", "a = -inf"),
+        ("a = 9007199254740993", "a = 9007199254740992"),
+        ("a = 1\n[b]", "a = 1"),
+        ("a = [1, []]", "a = [1]"),
+        ("[[s]]\nt = 1\nv = 5\n[[s]]\nt = 1", "[[s]]\nt = 1\n[[s]]\nt = 1\nv = 5"),
+        ("[[s]]\nt = 1\nv = 5\n[[s]]\nt = 1", "[[s]]\nt = 1\nv = 5\n[[s]]\nt = 1\nv = 5"),
+    ];
+    for (number, (a, b)) in pairs.into_iter().enumerate() {
+        let files =
+            [folder.write(&format!("{number}a.toml"), a), folder.write(&format!("{number}b.toml"), b)];
+        for (one, other, same) in [(0, 1, false), (1, 0, false), (0, 0, true), (1, 1, true)] {
+            let told = linkwear(&["diff", &files[one], &files[other], "--format", "json"]).json();
+            assert_eq!(told["identical"], same, "{a} {b}: {told}");
+            let code = linkwear(&["diff", &files[one], &files[other], "--tolerance", "0"]).code;
+            assert_eq!(code == 0, same, "{a} {b}");
+        }
+    }
+}
+
+#[test]
+fn columns_of_one_title_are_compared_by_their_order() {
+    let folder = Folder::new("diff-titles");
+    let one = folder.write("one.csv", "a,b,b\n0,1,2\n1,1,3\n");
+    let other = folder.write("other.csv", "a,b,b\n0,1,2\n1,1,4\n");
+    let fewer = folder.write("fewer.csv", "a,b\n0,1\n1,1\n");
+    let told = |a: &str, b: &str| linkwear(&["diff", a, b, "--format", "json"]).json();
+    assert_eq!(told(&one, &one)["identical"], true);
+    let found = told(&one, &other);
+    assert_eq!((&found["differences"][0]["a"], &found["differences"][0]["b"]), (&"3".into(), &"4".into()));
+    assert_eq!(told(&one, &fewer)["only_in_a"], serde_json::json!(["b"]));
+}
+
+#[test]
 fn results_of_different_kinds_are_refused_with_the_reason() {
     let folder = Folder::new("diff-kinds");
     let [rows, json] = simulated(&folder, "run", "1e-4");

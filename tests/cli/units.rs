@@ -216,3 +216,43 @@ fn a_log_of_service_gives_the_fit_of_the_lasers() {
     let told = linkwear(&["predict", &out, "--threshold", "15", "--unit", "1", "--format", "json"]).json();
     assert!(told["current"].as_f64().expect("a number") < 15.0);
 }
+
+#[test]
+fn a_part_that_was_replaced_has_no_remaining_life_but_what_took_its_place() {
+    let folder = Folder::new("replaced");
+    let wears = [1.0, 2.2, 0.7, 1.6, 2.9, 0.4];
+    let rows: String = (0..6)
+        .flat_map(|unit| {
+            let mut level = 0.0;
+            let rows: Vec<String> = (0..6)
+                .map(|at| {
+                    level += wears[(at * (unit + 1) + unit) % 6] * (1.0 + 0.3 * unit as f64);
+                    // The first is replaced on the way, the second at the end, the third is worked on.
+                    let done = match (unit, at) {
+                        (0, 2) => "replaced",
+                        (1, 5) => "replaced=0.5",
+                        (2, 5) => "reground=0.25",
+                        _ => "",
+                    };
+                    let row = format!("u{unit},{},{level:.2},{done}\n", at + 1);
+                    level = if done == "replaced" { 0.0 } else { level };
+                    row
+                })
+                .collect();
+            rows
+        })
+        .collect();
+    let file = folder.write("log.csv", &format!("unit,t,w,service\n{rows}"));
+    let out = folder.path("fit.json");
+    let columns = ["--unit", "unit", "--wear", "w", "--exposure", "t", "--from-zero", "--random-effects"];
+    let fit = linkwear(&[&["fit", &file], &columns[..], &["--reset", "service", "--out", &out]].concat());
+    assert_eq!(fit.code, 0, "{}", fit.err);
+    let predict =
+        |unit: &str| linkwear(&["predict", &out, "--threshold", "30", "--unit", unit, "--format", "json"]);
+    for (unit, cure) in [("u0", "--unit u0#2"), ("u1", "--current LEVEL")] {
+        let told = predict(unit);
+        assert!(told.code == 1 && told.out.contains(cure) && told.out.contains("replaced"), "{}", told.out);
+    }
+    assert_eq!(predict("u2").json()["current"], 0.25);
+    assert!(predict("u0#2").json()["current"].as_f64().is_some_and(|wear| wear > 0.25));
+}

@@ -235,6 +235,8 @@ impl<'a> Walk<'a> {
         self.end();
         let age = match reset {
             Reset::Replaced(_) => {
+                // It was taken out: nothing that it wears goes on.
+                self.part().wear = f64::NAN;
                 self.origin = reading.exposure;
                 self.parts.push(Part::default());
                 0.0

@@ -178,13 +178,20 @@ impl FitFile {
         let is_known = |one: &Increment| one.is_exact() || one.known == Known::Entered { from_new: true };
         let of_unit = || self.increments.iter().filter(|one| one.unit == at);
         if !of_unit().all(is_known) || self.seen[at].1.is_nan() {
-            let message =
-                format!("of unit `{name}` bounds are known, or a level that nobody read: not what it wears");
-            return Err(self.fault(
-                "unit_names",
-                &message,
-                "leave --unit out, and say what it wears: --current W --at EXPOSURE",
-            ));
+            let message = format!(
+                "unit `{name}` was replaced, or bounds are known of it, or a level that nobody read: not what it wears"
+            );
+            // Parts that took its place and have readings are units of their own.
+            let first = name.split_once('#').map_or(name, |(first, _)| first);
+            let later = names[at + 1..]
+                .iter()
+                .rev()
+                .find(|next| next.strip_prefix(first).is_some_and(|rest| rest.starts_with('#')));
+            let cure = match later {
+                Some(later) => format!("ask for the part in use, --unit {later}"),
+                None => "leave --unit out, and say what the part in use wears: --current W --at EXPOSURE; --current LEVEL alone of one that took its place at a level, without readings".to_owned(),
+            };
+            return Err(self.fault("unit_names", &message, &cure));
         }
         let own: Vec<&Increment> = of_unit().filter(|one| one.is_growth()).collect();
         let Some(last) = own.last() else {

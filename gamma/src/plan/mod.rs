@@ -34,3 +34,5 @@ mod hidden_tests;
 mod looks_tests;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod worth_tests;

@@ -6,11 +6,11 @@
 //! the least
 //!
 //! ```text
-//! V(T) = c_p S(T) + c_f F(T) - g int_0^T S dt
+//! V(T) = (c_p - g t_p) S(T) + (c_f - g t_f) F(T) - g int_0^T S dt
 //! ```
 //!
-//! with a look at time u one knows the wear then and plans on from there; the worth of the look is what the expectation of
-//! that is below, before the look's own cost.
+//! since standstills t_p and t_f put the next part off, too; with a look at time u one knows the wear then and plans on from
+//! there; the worth of the look is what the expectation of that is below, before the look's own cost.
 
 use super::condition::known_by_its_wear;
 use super::costs::Costs;
@@ -79,6 +79,24 @@ impl Worth {
     }
 }
 
+/// What the end of the part in use costs, beside what its standstill saves: below zero where that is more.
+#[derive(Clone, Copy)]
+struct Ends {
+    /// At a replacement in time.
+    preventive: f64,
+    /// At a failure; less than the other where the standstill is long and failures cost little.
+    failure: f64,
+}
+
+impl Ends {
+    fn new(costs: &Costs, rate: f64) -> Self {
+        Self {
+            preventive: costs.preventive - rate * costs.preventive_time,
+            failure: costs.failure - rate * costs.failure_time,
+        }
+    }
+}
+
 /// What a look at time `at` from now is worth, if time costs `rate` in the long run (that of [`super::best_age`], say).
 ///
 /// # Errors
@@ -90,7 +108,8 @@ pub fn worth_of_a_look(part: &InUse, costs: &Costs, rate: f64, at: f64) -> Resul
     let life =
         |current: f64, now: f64| FirstPassage::from(part.law, part.clock.clone(), part.failure, current, now);
     let now = life(part.current, part.now)?;
-    let (without, replace_after) = cheapest(&now, costs, rate)?;
+    let ends = Ends::new(costs, rate);
+    let (without, replace_after) = cheapest(&now, ends, rate)?;
     let used = MeanUse::new(&now, ACCURACY).until(at);
     let (fails_before, alive) = (now.failed(at), now.reliability(at));
     let gained = now.exposure(at);
@@ -99,29 +118,29 @@ pub fn worth_of_a_look(part: &InUse, costs: &Costs, rate: f64, at: f64) -> Resul
         let p = alive * (k as f64 + 0.5) / PARTS as f64;
         let worn = part.current + part.law.quantile(gained, p);
         let on = if worn < part.failure {
-            cheapest(&life(worn, part.now + at)?, costs, rate)?.0
+            cheapest(&life(worn, part.now + at)?, ends, rate)?.0
         } else {
-            costs.preventive
+            ends.preventive.min(ends.failure)
         };
-        if on >= costs.preventive {
+        if on >= ends.preventive {
             at_once += alive / PARTS as f64;
         }
-        after += on.min(costs.preventive) * alive / PARTS as f64;
+        after += on.min(ends.preventive) * alive / PARTS as f64;
     }
-    let with = costs.failure * fails_before - rate * used + after;
+    let with = ends.failure * fails_before - rate * used + after;
     // Whoever looks need not act on it, and need not wait for the look to replace the part.
     Ok(Worth { without, replace_after, with: with.min(without), fails_before, replaced_at_once: at_once })
 }
 
 /// The least expected cost of a part from here on, and when it is replaced.
-fn cheapest(life: &dyn Lifetime, costs: &Costs, rate: f64) -> Result<(f64, Option<f64>), PlanError> {
+fn cheapest(life: &dyn Lifetime, ends: Ends, rate: f64) -> Result<(f64, Option<f64>), PlanError> {
     let mut tried = vec![0.0];
     tried.extend(ages(life, LATEST, TRIED)?);
     let mut used = MeanUse::new(life, ACCURACY);
     let mut value = |age: f64| {
-        costs.preventive * life.reliability(age) + costs.failure * life.failed(age) - rate * used.until(age)
+        ends.preventive * life.reliability(age) + ends.failure * life.failed(age) - rate * used.until(age)
     };
     let (age, least_value) = least(&tried, &mut value);
-    let never = costs.failure - rate * life.moments()?.mean;
+    let never = ends.failure - rate * life.moments()?.mean;
     Ok(if never <= least_value { (never, None) } else { (least_value, Some(age)) })
 }

@@ -318,6 +318,7 @@ mod tests {
                 error,
                 profile: lives.bins.and_then(unworn),
                 journal: unworn(4),
+                half_angle: 0.0,
             };
             lives.after(&start, increment, 2.0)
         };

@@ -129,6 +129,7 @@ impl<S: Default> LifeState<S> {
             error: 0.0,
             profile: joint.bins.and_then(|bins| Profile::unworn(bins).ok()),
             journal: joint.journal_bins.and_then(|bins| Profile::unworn(bins).ok()),
+            half_angle: 0.0,
         });
         Ok(Self {
             trajectory,

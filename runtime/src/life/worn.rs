@@ -19,4 +19,7 @@ pub struct WearState {
     /// Depth of the journal by its own angle, if it wears.
     #[cfg_attr(feature = "serde", serde(default))]
     pub journal: Option<Profile>,
+    /// Half-width of its contact in the revolutions measured last, as an angle [rad]; zero if unknown. It moves nothing.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub half_angle: f64,
 }

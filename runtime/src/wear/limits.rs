@@ -27,6 +27,10 @@ pub struct Observed {
     pub pressure_speed: f64,
     /// Largest half-width b of the Hertz contact [m]; zero if another area is used.
     pub hertz_half_width: f64,
+    /// Half-width of the widest contact as an angle in the bearing [rad], over which wear is spread; zero if nothing touched, or unknown
+    /// (kept by an earlier version).
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub half_angle: f64,
     /// Largest penetration [m].
     pub penetration: f64,
     /// Depth gained in one wear cycle [m].
@@ -44,6 +48,7 @@ impl Observed {
             pressure: 0.0,
             pressure_speed: 0.0,
             hertz_half_width: 0.0,
+            half_angle: 0.0,
             penetration: 0.0,
             depth_per_cycle: 0.0,
             clearance,
@@ -57,6 +62,7 @@ impl Observed {
             pressure: Scalar::max(self.pressure, other.pressure),
             pressure_speed: Scalar::max(self.pressure_speed, other.pressure_speed),
             hertz_half_width: Scalar::max(self.hertz_half_width, other.hertz_half_width),
+            half_angle: Scalar::max(self.half_angle, other.half_angle),
             penetration: Scalar::max(self.penetration, other.penetration),
             ..self
         }
@@ -65,12 +71,13 @@ impl Observed {
     /// What these extremes mean for a joint of this contact area and size. The depth per cycle is for the caller to set.
     pub fn of(extremes: &Extremes<f64>, area: Area, pair: &Pair<f64>) -> Self {
         let Extremes { normal_force, pressure, pressure_speed, penetration } = *extremes;
-        // A line contact is the wider the larger the force, and nothing else moves it.
+        // Contacts are the wider the larger the force or the penetration.
         let load = Load { normal_force, penetration, sliding_speed: 0.0 };
         let radius = pair.journal_radius + pair.clearance;
-        let hertz_half_width = if area.is_half_space() { area.half_angle(&load, pair) * radius } else { 0.0 };
+        let half_angle = area.half_angle(&load, pair);
+        let hertz_half_width = if area.is_half_space() { half_angle * radius } else { 0.0 };
         let seen = Self::nothing(pair.clearance, pair.journal_radius);
-        Self { pressure, pressure_speed, hertz_half_width, penetration, ..seen }
+        Self { pressure, pressure_speed, hertz_half_width, half_angle, penetration, ..seen }
     }
 }
 
@@ -230,6 +237,7 @@ mod tests {
         pressure: 2e6,
         pressure_speed: 2.5e5,
         hertz_half_width: 5e-4,
+        half_angle: 0.05,
         penetration: 2e-7,
         depth_per_cycle: 3e-6,
         clearance: 1e-5,

@@ -18,6 +18,9 @@ use super::feedback::Measure;
 /// Bins unless told otherwise: 5 degrees each.
 pub const DEFAULT_BINS: usize = 72;
 
+/// Half-width of a contact in bins from which on its bins tell how deep it is.
+const RESOLVED: f64 = 2.0;
+
 /// Depths [m] on equal parts of the circumference.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -107,13 +110,34 @@ impl Profile {
         Measure::Maximum.of(&self.depths)
     }
 
-    /// By how much the deepest place may be deeper than the mean of its bin [m], as its neighbours tell: an eighth of
-    /// the second difference, by which a parabola rises within half a bin. Rough where the place is as narrow as a bin.
-    pub fn deeper_within_bin(&self) -> f64 {
+    /// By how much the deepest place may be deeper than the mean of its bin [m], where contacts have a half-width [rad], zero if
+    /// unknown. As its neighbours tell: an eighth of the second difference, by which a parabola rises within half a bin. Where
+    /// contacts are as narrow as a bin neighbours tell nothing: there all that is worn off deeper than beside the contact may be worn by one
+    /// that stays at its place, as a half ellipse.
+    pub fn deeper_within_bin(&self, half_width: f64) -> f64 {
         let (count, most) = (self.depths.len(), self.maximum());
         let deepest = self.depths.iter().position(|depth| *depth == most).unwrap_or(0);
-        let beside = self.depths[(deepest + 1) % count] + self.depths[(deepest + count - 1) % count];
-        (2.0 * most - beside) / 8.0
+        // Counted from a whole turn before, so that no place is below zero.
+        let depth = |place: usize| self.depths[place % count];
+        let by_neighbours = (2.0 * most - depth(deepest + 1) - depth(deepest + count - 1)) / 8.0;
+        if !self.is_narrow(half_width) {
+            return by_neighbours;
+        }
+        let reach = half_width / self.bin_angle();
+        let touched = ((2.0 * reach).ceil() as usize + 1).min(count - 2);
+        let peak = |first: usize| {
+            let beside = f64::max(depth(first + count - 1), depth(first + touched));
+            let above: f64 = (first..first + touched).map(|place| depth(place) - beside).sum();
+            beside + 2.0 * above / (PI * reach)
+        };
+        // Every way in which the contact may lie about the deepest bin.
+        let peaks = (0..touched).map(|before| peak(deepest + count - before));
+        peaks.fold(most + by_neighbours, f64::max) - most
+    }
+
+    /// Whether a contact of a half-width [rad] is so narrow that bins do not tell how deep it is.
+    pub fn is_narrow(&self, half_width: f64) -> bool {
+        half_width > 0.0 && half_width < RESOLVED * self.bin_angle()
     }
 
     /// Adds `amount` [m rad], the integral of the depth over the angle, around `angle` [rad], spread over
@@ -283,13 +307,44 @@ mod tests {
     #[test]
     fn a_place_as_narrow_as_a_bin_may_be_deeper_than_its_bin() {
         // Alone in its bin: a quarter deeper. A cosine in bins of 5 degrees: (5 degrees)² / 8.
-        assert_eq!(peak(72, 0, 4e-6).deeper_within_bin(), 1e-6);
+        assert_eq!(peak(72, 0, 4e-6).deeper_within_bin(0.0), 1e-6);
         let depth = |bin: u32| 1.0 + (f64::from(bin) * 5.0_f64.to_radians()).cos();
         let wide = Profile::try_from((0..72).map(depth).collect::<Vec<_>>()).unwrap();
         let expected = 5.0_f64.to_radians().powi(2) / 8.0;
         // Of the next order: (5 degrees)² / 12 of it.
-        assert!((wide.deeper_within_bin() / expected - 1.0).abs() < 1e-3);
-        assert_eq!(Profile::unworn(72).unwrap().deeper_within_bin(), 0.0);
+        assert!((wide.deeper_within_bin(0.5) / expected - 1.0).abs() < 1e-3);
+        assert_eq!(Profile::unworn(72).unwrap().deeper_within_bin(0.0), 0.0);
+    }
+
+    #[test]
+    fn a_contact_that_stays_may_be_as_deep_as_its_half_ellipse_wherever_it_lies_and_one_that_goes_round_no_deeper()
+     {
+        for bins in [8, 36, 72, 720] {
+            let mut round = Profile::unworn(bins).unwrap();
+            let bin = round.bin_angle();
+            for reach in [1e-3, 0.1, 0.5, 0.99, 1.4, 1.9] {
+                for off in [0.0, 0.2, 0.5, 0.77] {
+                    // Half a turn is all that wears: fewer bins are not wide enough for it.
+                    if bins == 8 && reach > 1.0 {
+                        continue;
+                    }
+                    let mut profile = Profile::unworn(bins).unwrap();
+                    profile.deposit(PI + (off - 1.0) * bin, reach * bin, 1.0);
+                    let deepest = 2.0 / (PI * reach * bin);
+                    let told = profile.maximum() + profile.deeper_within_bin(reach * bin);
+                    // Neighbours may tell an eighth more.
+                    assert!(
+                        told > 0.999 * deepest && told < 1.15 * deepest,
+                        "{bins} {reach} {off}: {told} {deepest}"
+                    );
+                }
+            }
+            for place in 0..4 * bins {
+                round.deposit(f64::from(place as u32) * bin / 4.0, 0.1 * bin, 1.0);
+            }
+            assert!(round.deeper_within_bin(0.1 * bin) < 1e-9 * round.maximum());
+            assert!(!round.is_narrow(0.0) && !round.is_narrow(2.5 * bin));
+        }
     }
 
     #[test]

@@ -55,6 +55,7 @@ pub fn revolution(depth: f64, clearance: f64) -> ContactMeasure {
             pressure: 2e6,
             pressure_speed: 2.5e5,
             hertz_half_width: 5e-4,
+            half_angle: 0.05,
             penetration: 2e-7,
             depth_per_cycle: 0.0,
             clearance,

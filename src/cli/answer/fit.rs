@@ -140,7 +140,7 @@ pub struct UnitsAnswer {
     lr_test: UnitsTestAnswer,
     /// Names of the units.
     unit_names: Vec<String>,
-    /// Wear of each unit at its last reading, or the level that it was set to after that [unit of wear]; null where it is not known.
+    /// Wear of each unit at its last reading, or the level that it was set to after that [unit of wear]; null where it is not known or the part was replaced.
     unit_wear: Vec<Option<f64>>,
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::limits;
-use linkwear_codegen::spec::{as_written, parse_expression};
+use linkwear_codegen::spec::{Dimension, as_written, parse_expression};
 use serde_json::{Map, Value};
 
 use super::super::failure::Failure;
@@ -18,10 +18,15 @@ const CLOCKS: &[&str] = &["wall_seconds", "seconds", "ns", "milliseconds_per_tur
 /// Keys that tell what made a result and change no number of it.
 const MADE: &[&str] = &["format", "backend", "file"];
 
+/// Integers up to which numbers tell all apart.
+const EXACT: u64 = 1 << 53;
+
 /// A cell: a number, a word, or nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
     Number(f64),
+    /// In SI, with a dimension: a second is no metre.
+    Quantity(f64, Dimension),
     Text(String),
 }
 
@@ -32,6 +37,9 @@ impl Cell {
                 format!("{value:e}")
             }
             Self::Number(value) => format!("{value}"),
+            Self::Quantity(value, dimension) => {
+                format!("{} {}", Self::Number(*value).shown(), dimension.si_unit())
+            }
             Self::Text(text) => text.clone(),
         }
     }
@@ -71,8 +79,7 @@ pub fn read(path: &Path) -> Result<Known, Failure> {
     if file.extension().is_some_and(|end| end == "toml") {
         let value: toml::Table = toml::from_str(&text)
             .map_err(|error| broken(format!("this is no TOML: {}", error.message()), None))?;
-        let value = serde_json::to_value(value).map_err(|error| broken(error.to_string(), None))?;
-        return Ok(of_keys("a mechanism file".to_owned(), value, true));
+        return Ok(of_keys("a mechanism file".to_owned(), of_toml(toml::Value::Table(value)), true));
     }
     let value: Value = serde_json::from_str(&text)
         .map_err(|error| broken(format!("this is no JSON: {error}"), Some(error.line())))?;
@@ -80,6 +87,22 @@ pub fn read(path: &Path) -> Result<Known, Failure> {
         return Err(broken("this is no result of linkwear".to_owned(), None));
     };
     Ok(of_keys(format!("a result of {kind}"), value, false))
+}
+
+/// The same as JSON, in which words stand for numbers that are not finite: JSON has none.
+fn of_toml(value: toml::Value) -> Value {
+    match value {
+        toml::Value::Table(table) => {
+            Value::Object(table.into_iter().map(|(key, value)| (key, of_toml(value))).collect())
+        }
+        toml::Value::Array(list) => list.into_iter().map(of_toml).collect(),
+        toml::Value::String(text) => text.into(),
+        toml::Value::Integer(number) => number.into(),
+        toml::Value::Float(number) if number.is_finite() => number.into(),
+        toml::Value::Float(number) => number.to_string().into(),
+        toml::Value::Boolean(is) => is.into(),
+        toml::Value::Datetime(time) => time.to_string().into(),
+    }
 }
 
 /// Which output it is: the one whose schema has all of its keys.
@@ -148,6 +171,13 @@ fn plain(value: &Value) -> String {
 /// Adds the values below a key: lists are columns, so indices leave the key and go into the place.
 fn flatten(columns: &mut Vec<Column>, (key, place): (&str, &str), value: &Value, is_toml: bool) {
     match value {
+        // In a file an empty table is more than none.
+        Value::Object(object) if is_toml && object.is_empty() => {
+            add(columns, (key, place), Cell::Text("{}".to_owned()))
+        }
+        Value::Array(list) if is_toml && list.is_empty() => {
+            add(columns, (key, place), Cell::Text("[]".to_owned()))
+        }
         Value::Object(object) => {
             for (name, value) in object.iter().filter(|(name, _)| is_toml || !CLOCKS.contains(&name.as_str()))
             {
@@ -161,23 +191,38 @@ fn flatten(columns: &mut Vec<Column>, (key, place): (&str, &str), value: &Value,
         }
         value => {
             let cell = match value {
+                Value::Number(number) if is_rounded(number) => Cell::Text(number.to_string()),
                 Value::Number(number) => Cell::Number(number.as_f64().unwrap_or(f64::NAN)),
                 Value::String(text) if is_toml => quantity(text),
                 value => Cell::Text(plain(value)),
             };
-            // Values of a list of objects come in turns.
-            let at = columns.iter().rposition(|known| known.key == key).unwrap_or_else(|| {
-                columns.push(Column { key: key.to_owned(), ..Column::default() });
-                columns.len() - 1
-            });
-            columns[at].places.push(place.to_owned());
-            columns[at].cells.push(cell);
+            add(columns, (key, place), cell);
         }
     }
+}
+
+/// Whether a number would lose digits.
+fn is_rounded(number: &serde_json::Number) -> bool {
+    let size = number.as_i64().map(i64::unsigned_abs).or_else(|| number.as_u64());
+    size.is_some_and(|size| size > EXACT)
+}
+
+fn add(columns: &mut Vec<Column>, (key, place): (&str, &str), cell: Cell) {
+    // Values of a list of objects come in turns.
+    let at = columns.iter().rposition(|known| known.key == key).unwrap_or_else(|| {
+        columns.push(Column { key: key.to_owned(), ..Column::default() });
+        columns.len() - 1
+    });
+    columns[at].places.push(place.to_owned());
+    columns[at].cells.push(cell);
 }
 
 /// A quantity of a mechanism file in SI, so that 10 um and 0.01 mm are one; a formula as it stands.
 fn quantity(text: &str) -> Cell {
     let value = as_written(text).and_then(|_| parse_expression(text, &|_| false).ok()?.quantity());
-    value.map_or_else(|| Cell::Text(text.to_owned()), |(value, _)| Cell::Number(value))
+    match value {
+        Some((value, Dimension::NONE)) => Cell::Number(value),
+        Some((value, dimension)) => Cell::Quantity(value, dimension),
+        None => Cell::Text(text.to_owned()),
+    }
 }

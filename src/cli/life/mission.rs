@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::life::{LifeResult, SegmentResult};
-use crate::number::number;
+use crate::number::{decimals, number};
 
 use super::super::table::table;
 use super::hours::hours;
@@ -26,7 +26,7 @@ pub fn mission_text(life: &LifeResult) -> String {
         };
         let mut row = vec![segment.name.clone(), percent(segment.time), percent(segment.revolutions)];
         row.extend(segment.wear.iter().map(|share| percent(*share)));
-        row.push(alone(&|cycles, _| Some(format!("{cycles:.3}"))));
+        row.push(alone(&|cycles, _| Some(decimals(cycles, 3))));
         row.push(alone(&|_, revolutions| Some(hours(revolutions * segment.seconds_per_revolution?))));
         row
     };

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::life::{Cost, HOUR, JointProcess, LifeFacts, LifeResult, Shard, YEAR};
-use crate::number::number;
+use crate::number::{decimals, number};
 use crate::wear_measure::paragraph;
 use linkwear_gamma::life::{CountedLives, LifeStatistics, WithError};
 use linkwear_runtime::Column;
@@ -99,10 +99,10 @@ fn to_text(facts: &LifeFacts, life: &LifeResult, statistics: Option<&LifeStatist
     let names = life.names();
     let joint = life.failed_joint();
     let mut text = format!(
-        "{}: on its mean path {} fails after {:.3} cycles ({} whole), {} revolutions; {}\n",
+        "{}: on its mean path {} fails after {} cycles ({} whole), {} revolutions; {}\n",
         facts.name,
         joint.joint,
-        life.end.cycles,
+        decimals(life.end.cycles, 3),
         life.end.whole_cycles,
         number(life.end.cycles * joint.revolutions_per_cycle),
         facts.backend,
@@ -153,8 +153,8 @@ fn scatter(facts: &LifeFacts, life: &LifeResult, lives: &LifeStatistics) -> Stri
     let seconds = life.seconds_per_cycle();
     let time = |cycles: f64| seconds.map_or_else(String::new, |seconds| hours(cycles * seconds));
     let row = |name: &str, digits: usize, found: WithError, [low, high]: [Option<f64>; 2]| {
-        let end = |end: Option<f64>| end.map_or_else(|| "?".to_owned(), |end| format!("{end:.digits$}"));
-        let value = format!("{:.digits$} +- {}", found.value, end(known(found.error)));
+        let end = |end: Option<f64>| end.map_or_else(|| "?".to_owned(), |end| decimals(end, digits));
+        let value = format!("{} +- {}", decimals(found.value, digits), end(known(found.error)));
         vec![name.to_owned(), value, format!("{} to {}", end(low), end(high)), time(found.value)]
     };
     let quantile =
@@ -165,7 +165,7 @@ fn scatter(facts: &LifeFacts, life: &LifeResult, lives: &LifeStatistics) -> Stri
     let half = lives.mean_half_width();
     let rows: Vec<Vec<String>> = [
         Some(row("mean", 3, mean, [-half, half].map(|by| Some(mean.value + by)))),
-        Some(vec!["mean, whole cycles".to_owned(), format!("{whole:.3}"), String::new(), time(whole)]),
+        Some(vec!["mean, whole cycles".to_owned(), decimals(whole, 3), String::new(), time(whole)]),
         Some(row("standard deviation", 4, std, [Some(low), Some(high)])),
         Some(["coefficient of variation", &percent, "", ""].map(str::to_owned).to_vec()),
         quantile("10 % fail before (B10)", 0.1),
