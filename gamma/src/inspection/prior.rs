@@ -97,7 +97,8 @@ impl Prior {
                 -0.5 * off * off
             }
             Self::Fit(fit) => {
-                let off: Vec<f64> = fit.logs_at_reference().iter().zip(logs).map(|(mean, log)| log - mean).collect();
+                let off: Vec<f64> =
+                    fit.logs_at_reference().iter().zip(logs).map(|(mean, log)| log - mean).collect();
                 fit.factor().distance(&off).map_or(f64::NEG_INFINITY, |square| -0.5 * square)
             }
         }
