@@ -65,7 +65,7 @@ fn told(process: &'static dyn Process, (units, covariates): (usize, usize), unit
     for prior in [Prior::Fit(fit.clone()), Prior::Flat { process, power_law: true }] {
         add(Prediction::after(&exact, &prior, &state, &questions).expect("explained"));
     }
-    let effort = Effort { count: 1500, seed: 1 };
+    let effort = Effort { count: 4000, seed: 1 };
     let noisy = History::noisy(log).expect("numbers");
     add(Prediction::after_gauge(&noisy, &fit, &state, 0.5, effort, &questions).expect("explained"));
     let lives = Prediction::possible_lives(&fit, &state, 40).expect("laws");

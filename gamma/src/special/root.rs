@@ -16,7 +16,7 @@ pub(crate) fn guarded(next: f64, x: f64, (low, high): (f64, f64)) -> f64 {
 /// Roots are looked for between these.
 const NEAREST: f64 = 1e-300;
 const FARTHEST: f64 = f64::MAX / 4.0;
-/// Doublings, some nine digits, after which each step is the square of the one before: ten more reach the largest number.
+/// Doublings or halvings, some nine digits, after which each step is the square of the one before: ten more reach the largest number.
 const DOUBLED: u32 = 30;
 
 /// Positive root of a rising function, looked for from `start` on by doubling and halving, then by [`bracketed`]; infinite where it
@@ -42,13 +42,19 @@ pub(crate) fn rising_root_within(f: &dyn Fn(f64) -> f64, start: f64, accuracy: f
         }
     }
     let mut known = (low.0, low.1.unwrap_or_else(|| f(low.0)));
-    while high.0 > 2.0 * known.0 {
+    let (mut factor, mut halved) = (0.5, 0);
+    while known.1 > 0.0 && known.0 > NEAREST {
+        let next = (factor * known.0).max(NEAREST);
+        (high, known) = (known, (next, f(next)));
+        halved += 1;
+        if halved >= DOUBLED {
+            factor *= factor;
+        }
+    }
+    while high.0 > 2.0 * known.0 && known.1 <= 0.0 {
         let middle = libm::sqrt(known.0) * libm::sqrt(high.0);
         let middle = (middle, f(middle));
         if middle.1 < 0.0 { known = middle } else { high = middle }
-    }
-    while known.1 > 0.0 && known.0 > NEAREST {
-        (high, known) = (known, (0.5 * known.0, f(0.5 * known.0)));
     }
     bracketed(f, known, high, accuracy)
 }
