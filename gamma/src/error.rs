@@ -106,6 +106,22 @@ pub enum LifeError {
         /// The part that ever fails.
         ever: f64,
     },
+    /// Numbers of a joint whose life is none.
+    #[error(
+        "the life comes out as {typical}, beyond what can be computed: check the threshold, the exposure until now, the rate, and the units of all three"
+    )]
+    OutOfRange {
+        /// What comes out.
+        typical: f64,
+    },
+    /// A time beyond all numbers.
+    #[error(
+        "the time by which the part {p} has failed is beyond all numbers: too little is known of the exponent, which may be near zero; give more readings, or take a fit as prior"
+    )]
+    Endless {
+        /// The part asked for.
+        p: f64,
+    },
     /// The readings of a unit say that it does not wear.
     #[error(
         "by its readings the drift of the unit is not above zero, so nothing is known of when it fails: fit another process, or read it again later"

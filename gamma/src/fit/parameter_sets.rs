@@ -3,15 +3,17 @@
 //!
 //! The prior is that of the exact posterior: flat in the logarithms and in the powers of covariates, weighed by
 //! [`crate::process::Process::ln_matching_weight`]. A gauge that rounds says little of a scatter far below its step: the prior falls
-//! there, as the information does; flat, it would leave all weight on no scatter at all.
+//! there, as the information does; flat, it would leave all weight on no scatter at all. Where exposure counts by a power, the
+//! parameters that it is flat in are those over the largest exposure, so that it is the same in every unit of exposure.
 //!
 //! Importance sampling: points of a lattice, carried over to Student's law around the maximum, whose tails are wider than those
 //! of any posterior with more increments than parameters. After few increments that is too narrow all the same: posteriors are skew, and
 //! few points lie in their longer tail. So the sets that count come from a second round, around the mean of the first.
 
 use super::model::Model;
-use crate::data::Increment;
+use crate::data::{Increment, Known};
 use crate::matrix::Factor;
+use crate::process::{Reference, sheared};
 
 /// Sets tried of exact readings, for two parameters, three, and more: with four times as many the ends of intervals move by up to
 /// 3 % of their distance after 12 increments (tests below), to and fro from data to data.
@@ -37,7 +39,31 @@ pub fn parameter_sets(
     covariance: &[Vec<f64>],
 ) -> Option<Vec<Set>> {
     let tried = if model.resolution.is_some() { TRIED_ROUNDED } else { TRIED };
-    sets_of(model, increments, (phi, covariance), tried[phi.len().clamp(2, 4) - 2])
+    let tried = tried[phi.len().clamp(2, 4) - 2];
+    if !model.power_law {
+        return sets_of(model, increments, (phi, covariance), tried);
+    }
+    let most = increments.iter().map(|one| one.to).fold(0.0, f64::max);
+    let reference = Reference::exposure(model.process, most);
+    let increments: Vec<Increment> = increments.iter().map(|one| counted(one, &reference)).collect();
+    let mut taken = phi.to_vec();
+    reference.taken(&mut taken, phi[2]);
+    let covariance = sheared(covariance, reference.slopes());
+    let mut sets = sets_of(model, &increments, (&taken, &covariance), tried)?;
+    for (logs, _) in &mut sets {
+        let exponent = libm::exp(logs[2]);
+        reference.back(logs, exponent);
+    }
+    Some(sets)
+}
+
+/// An increment with its exposures in units of a reference.
+fn counted(one: &Increment, reference: &Reference) -> Increment {
+    let known = match one.known {
+        Known::Through { at, below } => Known::Through { at: reference.counted(at), below },
+        known => known,
+    };
+    Increment { from: reference.counted(one.from), to: reference.counted(one.to), known, ..one.clone() }
 }
 
 fn sets_of(

@@ -53,7 +53,7 @@ pub enum InspectionError {
     },
     /// Too few readings to learn from.
     #[error(
-        "{readings} reading(s): at least {needed} are needed {why}; the first may be time 0, wear 0 of the new joint"
+        "{readings} reading(s): at least {needed} are needed {why}; time 0, wear 0 of the new joint counts as one"
     )]
     TooFew {
         /// Readings given.

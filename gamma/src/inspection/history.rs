@@ -16,20 +16,26 @@ pub struct Reading {
 #[derive(Clone, Debug, PartialEq)]
 pub struct History {
     readings: Vec<Reading>,
+    /// Whether wear is known to have been 0 at time 0, before the first reading.
+    from_new: bool,
 }
 
 impl History {
-    /// Readings without gauge error: wear rises from each to the next, if it does so by the process.
+    /// Readings without gauge error: wear rises from each to the next, if it does so by the process. Before a first reading that is later
+    /// than time 0 the joint was new, at time 0 without wear; a reading at time 0 says what it began with.
     ///
     /// # Errors
     /// [`InspectionError`] with the first reading that cannot be.
     pub fn exact(process: &dyn Process, readings: Vec<Reading>) -> Result<Self, InspectionError> {
-        let history = Self::any(readings, 2, "to see wear rise")?;
+        let from_new = readings.first().is_some_and(|first| first.time > 0.0);
+        let history = Self::any(readings, if from_new { 1 } else { 2 }, "to see wear rise")?;
+        let history = Self { from_new, ..history };
         if !process.is_increasing() {
             return Ok(history);
         }
-        for (at, pair) in history.readings.windows(2).enumerate() {
-            let (row, wear, before) = (at + 2, pair[1].wear, pair[0].wear);
+        for (at, pair) in history.from_the_start().windows(2).enumerate() {
+            let row = at + if from_new { 1 } else { 2 };
+            let (wear, before) = (pair[1].wear, pair[0].wear);
             if wear < before {
                 return Err(InspectionError::Falls { row, wear, before });
             }
@@ -64,7 +70,7 @@ impl History {
                 return Err(InspectionError::Order { row, time: reading.time, before });
             }
         }
-        Ok(Self { readings })
+        Ok(Self { readings, from_new: false })
     }
 
     /// The readings.
@@ -72,13 +78,19 @@ impl History {
         &self.readings
     }
 
-    /// From each reading to the next: exposure before and after at `rate` units of it per unit of time, wear between.
+    /// The readings, after the new joint where it goes before them.
+    fn from_the_start(&self) -> Vec<Reading> {
+        let new = self.from_new.then_some(Reading { time: 0.0, wear: 0.0 });
+        new.into_iter().chain(self.readings.iter().copied()).collect()
+    }
+
+    /// From the new joint, if it goes before, and from each reading to the next: exposure before and after at `rate` units of it per unit of time, wear between.
     pub(super) fn increments(&self, rate: f64) -> Vec<[f64; 3]> {
         let between = |pair: &[Reading]| {
             let [from, to] = [pair[0].time, pair[1].time].map(|time| rate * time);
             [from, to, pair[1].wear - pair[0].wear]
         };
-        self.readings.windows(2).map(between).collect()
+        self.from_the_start().windows(2).map(between).collect()
     }
 
     /// The last reading.
@@ -91,6 +103,16 @@ impl History {
 mod tests {
     use super::*;
     use crate::process::{Gamma, Wiener};
+
+    #[test]
+    fn a_joint_was_new_before_its_first_reading() {
+        let increments = |rows: &[(f64, f64)]| exact(rows).expect("rising").increments(2.0);
+        let plain = increments(&[(0.0, 0.0), (2.0, 1.5), (4.0, 4.0)]);
+        assert_eq!(increments(&[(2.0, 1.5), (4.0, 4.0)]), plain);
+        assert_eq!(increments(&[(2.0, 1.5)]), plain[..1]);
+        // What it began with is read.
+        assert_eq!(increments(&[(0.0, 0.5), (2.0, 1.5)]), [[0.0, 4.0, 1.0]]);
+    }
 
     fn exact(rows: &[(f64, f64)]) -> Result<History, InspectionError> {
         History::exact(&Gamma, rows.iter().map(|(time, wear)| Reading { time: *time, wear: *wear }).collect())
@@ -113,6 +135,9 @@ mod tests {
             assert!(error.starts_with(expected), "{error}");
         }
         assert!(exact(&[(0.0, 0.0), (1.0, 0.5)]).is_ok());
+        // From the new joint on.
+        let error = exact(&[(1.0, 0.0), (2.0, 0.5)]).expect_err("no wear").to_string();
+        assert!(error.starts_with("reading 1: wear stays at 0"), "{error}");
         let fall = vec![Reading { time: 1.0, wear: 1.0 }, Reading { time: 2.0, wear: 0.9 }];
         assert!(History::noisy(fall.clone()).is_ok() && History::exact(&Wiener, fall).is_ok());
     }

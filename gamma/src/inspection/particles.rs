@@ -3,7 +3,7 @@
 //! files.
 //!
 //! Each particle carries parameters drawn from the estimate and a wear path drawn with them from the new joint (time 0, no
-//! wear); a reading weighs it by the normal density of its error (Gordon, Salmond & Smith 1993), systematic resampling
+//! wear), or from a reading at time 0 that is beyond the gauge's error from no wear; a later reading weighs it by the normal density of its error (Gordon, Salmond & Smith 1993), systematic resampling
 //! follows when weights are uneven. Parameters do not move afterwards, so a reading the prior hardly explains leaves few
 //! different particles: that is refused, not smoothed over.
 
@@ -16,10 +16,13 @@ use super::history::History;
 use crate::error::LifeError;
 use crate::life::{Estimate, FirstPassage, Lifetime, OperatingState, mixed_hazard};
 use crate::process::Process;
-use crate::random::Stream;
+use crate::random::{StandardNormal, Stream};
 
 /// Different particles below which an answer is refused: three-digit probabilities need that many.
 const FEWEST: usize = 200;
+
+/// Gauge errors within which a reading at time 0 is one of no wear.
+const UNWORN: f64 = 5.0;
 
 /// Particles after the last reading, all of the same weight, none of them failed.
 #[derive(Debug)]
@@ -70,11 +73,19 @@ impl Particles {
         let mut ln_weights = vec![0.0; particles.len()];
         let mut fewest = (usize::MAX, 1);
         let mut before = 0.0;
+        let begins_worn = history.readings()[0].time == 0.0 && history.readings()[0].wear > UNWORN * gauge;
         for (at, reading) in history.readings().iter().enumerate() {
             let now = state.rate() * reading.time;
             for (k, (particle, ln)) in particles.iter_mut().zip(&mut ln_weights).enumerate() {
                 // Cycle 0 of a stream drew the parameters; reading n draws from cycle n.
-                particle.wear_on(process, before, now, stream(k).at(at as u64 + 1));
+                let mut own = stream(k);
+                let draws = own.at(at as u64 + 1);
+                if begins_worn && at == 0 {
+                    let error: f64 = draws.sample(StandardNormal);
+                    particle.wear = reading.wear + gauge * error;
+                    continue;
+                }
+                particle.wear_on(process, before, now, draws);
                 let off = (reading.wear - particle.wear) / gauge;
                 *ln -= 0.5 * off * off;
             }

@@ -74,6 +74,9 @@ impl Posterior {
         now: &OperatingState,
     ) -> Result<Self, InspectionError> {
         let (count, process) = (increments.len(), prior.process());
+        let reference = prior.reference(increments);
+        let counted = |[from, to, wear]: &[f64; 3]| [reference.counted(*from), reference.counted(*to), *wear];
+        let increments: Vec<[f64; 3]> = increments.iter().map(counted).collect();
         let (start, size, flat) = match prior {
             Prior::Fit(fit) if !fit.is_uncertain() => {
                 let node = Node { logs: fit.logs().to_vec(), weight: 1.0, life: now.life(fit)? };
@@ -84,7 +87,7 @@ impl Posterior {
                 if fit.factor().distance(&vec![0.0; size]).is_none() {
                     return Err(LifeError::Covariance { reason: "singular", size }.into());
                 }
-                (fit.logs().to_vec(), size, None)
+                (fit.logs_at_reference(), size, None)
             }
             Prior::Flat { .. } | Prior::Matching { .. } | Prior::Catalogue { .. } => {
                 let power_law = prior.has_power_law();
@@ -101,10 +104,14 @@ impl Posterior {
                 (vec![first, second, 0.0], if power_law { 3 } else { 2 }, Some(count))
             }
         };
-        let lines = Lines { likelihood: Likelihood::new(increments, prior), start };
-        let Some(points) = lines.points(size) else {
+        let lines = Lines { likelihood: Likelihood::new(&increments, prior), start };
+        let Some(mut points) = lines.points(size) else {
             return Err(InspectionError::Proportional { readings: count + 1 });
         };
+        for (logs, _) in &mut points {
+            let exponent = logs.get(2).map(|ln| libm::exp(*ln));
+            reference.back(logs, exponent.unwrap_or(0.0));
+        }
         // A catalogue keeps drifts away from 0, which are all that a Wiener process has to fear.
         let flat = flat.filter(|_| !(prior.is_catalogue() && process.increments_for_variance().is_none()));
         Ok(Self { process, nodes: weighed(points, process, now)?, flat })

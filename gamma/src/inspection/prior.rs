@@ -1,7 +1,7 @@
 //! What was known before the readings. Never knows readings.
 
 use crate::life::{Estimate, LifeError};
-use crate::process::Process;
+use crate::process::{Process, Reference};
 use crate::special::normal_quantile;
 
 /// Probability that a range of a catalogue holds the value.
@@ -11,7 +11,7 @@ const RANGE: f64 = 0.95;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Prior {
     /// Nothing: flat in the logarithms of the parameters, of the first as [`Process::flat_prior_power`] has it, and in ln
-    /// exponent if that is a parameter.
+    /// exponent if that is a parameter; the parameters then are those over the largest exposure of the readings.
     Flat {
         /// The process.
         process: &'static dyn Process,
@@ -74,7 +74,19 @@ impl Prior {
         matches!(self, Self::Catalogue { .. })
     }
 
-    /// ln of the density in the logarithms of parameters and exponent, not normalised.
+    /// The exposure at which it is told, after increments; exposure 1 where no exponent is unknown.
+    pub(super) fn reference(&self, increments: &[[f64; 3]]) -> Reference {
+        match self {
+            Self::Fit(fit) => *fit.reference(),
+            _ if self.has_power_law() => {
+                let most = increments.iter().map(|[_, to, _]| *to).fold(0.0, f64::max);
+                Reference::exposure(self.process(), most)
+            }
+            _ => Reference::default(),
+        }
+    }
+
+    /// ln of the density in the logarithms of parameters, at the reference, and exponent, not normalised.
     pub(super) fn ln_density(&self, logs: &[f64]) -> f64 {
         match self {
             Self::Flat { process, .. } | Self::Matching { process, .. } => {
@@ -85,7 +97,8 @@ impl Prior {
                 -0.5 * off * off
             }
             Self::Fit(fit) => {
-                let off: Vec<f64> = fit.logs().iter().zip(logs).map(|(mean, log)| log - mean).collect();
+                let off: Vec<f64> =
+                    fit.logs_at_reference().iter().zip(logs).map(|(mean, log)| log - mean).collect();
                 fit.factor().distance(&off).map_or(f64::NEG_INFINITY, |square| -0.5 * square)
             }
         }

@@ -226,6 +226,53 @@ fn little_gauge_error_gives_what_exact_readings_give() {
 }
 
 #[test]
+fn a_gauge_without_error_says_what_exact_readings_say_of_the_beginning() {
+    // From the new joint on, and from wear that is read at time 0; a tenth of a gauge's error there is none.
+    let cases: [(&[(f64, f64)], f64); 3] = [
+        (&[(2.0, 1.5), (4.0, 3.2)], 0.0),
+        (&[(0.0, 2.0), (3.0, 4.6)], 2.0),
+        (&[(0.0, 0.005), (3.0, 2.6)], 0.0),
+    ];
+    for (rows, begins) in cases {
+        let readings: Vec<Reading> =
+            rows.iter().map(|(time, wear)| Reading { time: *time, wear: *wear }).collect();
+        let noisy = History::noisy(readings.clone()).expect("numbers");
+        let effort = Effort { count: 40_000, seed: 4 };
+        let particles = Particles::follow(&noisy, &fit(), &situation(), 0.05, effort).expect("explained");
+        let begun = [&[(0.0, begins)], &rows[usize::from(rows[0].0 == 0.0)..]].concat();
+        let plain = Posterior::update(&history(&begun), &Prior::Fit(fit()), &situation()).expect("proper");
+        let exact = History::exact(&Gamma, readings).expect("rising");
+        let exact = Posterior::update(&exact, &Prior::Fit(fit()), &situation()).expect("proper");
+        for p in [0.1, 0.5] {
+            let told = |life: &dyn Lifetime| life.quantile(p).expect("a law");
+            // Wear of 0.005 at the beginning is a thousandth of what is left.
+            assert!((told(&exact) / told(&plain) - 1.0).abs() < 2e-3, "{rows:?} {p}");
+            // Some 1,000 different particles, and the gauge's 0.05 of wear.
+            assert!((told(&particles) / told(&plain) - 1.0).abs() < 0.04, "{rows:?} {p}");
+        }
+    }
+}
+
+#[test]
+fn a_flat_prior_of_few_readings_and_an_exponent_comes_to_an_end() {
+    let rows = [(0.0, 0.0), (1.0, 2.0), (2.0, 4.5), (3.5, 6.0), (5.0, 7.1)];
+    for count in [4, 5] {
+        let flat = Prior::Flat { process: &Gamma, power_law: true };
+        let state = OperatingState::new(30.0).expect("valid");
+        let posterior = Posterior::update(&history(&rows[..count]), &flat, &state).expect("proper");
+        let quantiles = [0.1, 0.5, 0.9, 0.999, 1.0 - 1e-6].map(|p| posterior.quantile(p));
+        assert!(quantiles[0].is_ok() && quantiles[1].is_ok(), "{quantiles:?}");
+        // Exponents near zero are too probable for times of the rarest lives.
+        assert_eq!(quantiles[4], Err(LifeError::Endless { p: 1.0 - 1e-6 }), "{quantiles:?}");
+        // Every node has its answer, if only that there is none.
+        let at = |life: &FirstPassage| Ok((life.quantile(0.5).unwrap_or(f64::INFINITY), 1.0));
+        let median = quantiles[1].clone().expect("a number");
+        let band = posterior.credible(median, 0.5, &at).expect("a level");
+        assert!(band.lower < median && median < band.upper, "{band:?} {median}");
+    }
+}
+
+#[test]
 fn a_coarse_gauge_bears_readings_that_fall() {
     let rows = [(1.0, 0.9), (2.0, 0.8), (3.0, 2.6)];
     let readings = rows.iter().map(|(time, wear)| Reading { time: *time, wear: *wear }).collect();

@@ -193,8 +193,8 @@ pub(crate) fn variance(
     let mut gradient = Vec::new();
     for at in 0..estimate.logs().len() {
         let shifted = |step: f64| -> Result<f64, LifeError> {
-            let mut logs = estimate.logs().to_vec();
-            logs[at] += step;
+            let steps = (0..estimate.logs().len()).map(|other| if other == at { step } else { 0.0 });
+            let logs = estimate.logs_off_by(steps);
             Ok(scale.out(of(&state.life_by(estimate, &logs)?)?))
         };
         gradient.push((shifted(STEP)? - shifted(-STEP)?) / (2.0 * STEP));

@@ -2,6 +2,9 @@
 
 use crate::error::{LifeError, positive};
 
+/// Logarithm of a quotient of two exposures beyond which the smaller one does not count.
+const FAR: f64 = 700.0;
+
 /// Exposure as a function of time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Clock {
@@ -57,12 +60,34 @@ impl Clock {
     /// Lambda at time `t`.
     pub fn exposure(&self, t: f64) -> f64 {
         match self {
-            Self::Power { rate, exponent } if *exponent == 1.0 => rate * t,
-            Self::Power { rate, exponent } => libm::pow(rate * t, *exponent),
+            Self::Power { rate, .. } => self.power_of(rate * t),
             Self::Table(rows) => {
                 let (a, b) = interval(rows, t);
                 a.1 + (b.1 - a.1) * ((t - a.0) / (b.0 - a.0))
             }
+        }
+    }
+
+    /// Lambda gained from time `now` until `t` later: no small difference, however late it is.
+    pub fn gained(&self, now: f64, t: f64) -> f64 {
+        match self {
+            Self::Power { rate, exponent } if *exponent == 1.0 || now <= 0.0 => self.power_of(rate * t),
+            Self::Power { exponent, .. } if exponent * libm::log1p(t / now) < FAR => {
+                self.exposure(now) * libm::expm1(exponent * libm::log1p(t / now))
+            }
+            _ => self.exposure(now + t) - self.exposure(now),
+        }
+    }
+
+    /// How long after time `now` so much Lambda is gained.
+    pub fn until(&self, now: f64, gained: f64) -> f64 {
+        let before = self.exposure(now);
+        match self {
+            Self::Power { exponent, .. } if *exponent == 1.0 || now <= 0.0 => self.time(gained),
+            Self::Power { exponent, .. } if libm::log1p(gained / before) / exponent < FAR => {
+                now * libm::expm1(libm::log1p(gained / before) / exponent)
+            }
+            _ => self.time(before + gained) - now,
         }
     }
 
@@ -86,6 +111,14 @@ impl Clock {
                 let (a, b) = (rows[at - 1], rows[at]);
                 a.0 + (b.0 - a.0) * ((exposure - a.1) / (b.1 - a.1))
             }
+        }
+    }
+
+    /// A load run through, by the exponent; a table has none.
+    fn power_of(&self, load: f64) -> f64 {
+        match self {
+            Self::Power { exponent, .. } if *exponent != 1.0 => libm::pow(load, *exponent),
+            _ => load,
         }
     }
 
@@ -131,6 +164,31 @@ mod tests {
             for t in [0.1, 0.9, 1.0, 3.7, 9.0] {
                 // Powers by 1/0.2 lose a digit or two.
                 assert!((clock.time(clock.exposure(t)) - t).abs() < 1e-13 * (1.0 + t), "{clock:?} {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_gained_late_keeps_its_digits() {
+        let table = Clock::table(vec![(0.0, 0.0), (1.0, 2.0), (4.0, 3.0)]).expect("rising");
+        for clock in [Clock::linear(0.3).expect("valid"), Clock::power(2.0, 0.2).expect("valid"), table] {
+            for (now, t) in [(0.0, 2.0), (0.7, 1e-3), (3.0, 2.0), (1e-3, 50.0)] {
+                let plain = clock.exposure(now + t) - clock.exposure(now);
+                // The plain difference loses up to four digits.
+                assert!((clock.gained(now, t) / plain - 1.0).abs() < 1e-11, "{clock:?} {now} {t}");
+                assert!(
+                    (clock.until(now, clock.gained(now, t)) / t - 1.0).abs() < 1e-10,
+                    "{clock:?} {now} {t}"
+                );
+            }
+        }
+        for exponent in [0.4, 1.0, 2.5] {
+            let clock = Clock::power(0.5, exponent).expect("valid");
+            for now in [1e9, 1e17, 1e40] {
+                // So late Lambda is a straight line: the next term is t / now.
+                let slope = clock.rate(now) * 3.0;
+                assert!((clock.gained(now, 3.0) / slope - 1.0).abs() < 1e-8, "{exponent} {now}");
+                assert!((clock.until(now, slope) / 3.0 - 1.0).abs() < 1e-8, "{exponent} {now}");
             }
         }
     }

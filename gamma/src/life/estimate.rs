@@ -6,7 +6,7 @@ use rand::RngExt;
 use super::law::Law;
 use crate::error::{LifeError, positive};
 use crate::matrix::Factor;
-use crate::process::Process;
+use crate::process::{Process, Reference, sheared};
 use crate::random::{StandardNormal, Stream};
 
 /// What is known of the data an estimate was made from.
@@ -55,7 +55,9 @@ pub struct Estimate {
     units_differ: bool,
     /// The unit that is asked for; none: one of which nothing has been read.
     unit: Option<SeenUnit>,
-    /// Of the covariance of `logs`; empty if the parameters are taken as known.
+    /// Where the logarithms of the parameters are told that are normal; exposure 1 without an exponent.
+    reference: Reference,
+    /// Of the covariance of these; empty if the parameters are taken as known.
     factor: Factor,
     sample: Sample,
 }
@@ -78,8 +80,8 @@ impl Estimate {
         if let Some(exponent) = exponent {
             logs.push(libm::log(positive("the exponent", exponent)?));
         }
-        let (factor, sample) = (Factor::default(), Sample::Unknown);
-        Ok(Self { process, logs, units_differ: false, unit: None, factor, sample })
+        let (reference, factor, sample) = (Reference::default(), Factor::default(), Sample::Unknown);
+        Ok(Self { process, logs, units_differ: false, unit: None, reference, factor, sample })
     }
 
     /// With units that differ, as [`Process::random_effect`] has it; `cv` is the coefficient of variation. Before a covariance is
@@ -133,14 +135,27 @@ impl Estimate {
         self.with_log_covariance(&scaled)
     }
 
-    /// With the covariance of the logarithms of the parameters and of the exponent, if it was estimated.
+    /// With the covariance of the logarithms of the parameters and of the exponent, if it was estimated. With an exponent the logarithms
+    /// that are normal are those at the exposure where the mean wear and the exponent are not correlated: the middle of the data,
+    /// the same in every unit of exposure, which the parameters over exposure 1 are not.
     ///
     /// # Errors
     /// [`LifeError::Covariance`].
     pub fn with_log_covariance(mut self, covariance: &[Vec<f64>]) -> Result<Self, LifeError> {
         let size = self.logs.len();
-        self.factor =
-            Factor::covariance(covariance, size).map_err(|reason| LifeError::Covariance { reason, size })?;
+        let factor = |covariance: &[Vec<f64>]| {
+            Factor::covariance(covariance, size).map_err(|reason| LifeError::Covariance { reason, size })
+        };
+        self.factor = factor(covariance)?;
+        self.reference = Reference::default();
+        if let Some(exponent) = self.exponent() {
+            let mean = |logs: [f64; 2]| self.process.ln_mean(logs);
+            let slopes = [mean([1.0, 0.0]), mean([0.0, 1.0])].map(|at| at - mean([0.0, 0.0]));
+            let shared = slopes[0] * covariance[2][0] + slopes[1] * covariance[2][1];
+            self.reference = Reference::at(self.process, -shared / (exponent * covariance[2][2]));
+            let slopes = self.reference.slopes().map(|slope| slope * exponent);
+            self.factor = factor(&sheared(covariance, slopes))?;
+        }
         Ok(self)
     }
 
@@ -229,6 +244,11 @@ impl Estimate {
     pub fn variance(&self, gradient: &[f64]) -> f64 {
         let mut padded = gradient.to_vec();
         padded.resize(self.logs.len(), 0.0);
+        // By ln exponent, the parameters at the reference held.
+        if let Some(exponent) = self.exponent() {
+            let slopes = self.reference.slopes();
+            padded[2] -= exponent * (slopes[0] * padded[0] + slopes[1] * padded[1]);
+        }
         self.factor.variance(&padded)
     }
 
@@ -240,11 +260,33 @@ impl Estimate {
         &self.factor
     }
 
+    /// Where the parameters are told that are normal.
+    pub(crate) fn reference(&self) -> &Reference {
+        &self.reference
+    }
+
+    /// Logarithms at the reference.
+    pub(crate) fn logs_at_reference(&self) -> Vec<f64> {
+        let mut logs = self.logs.clone();
+        if let Some(exponent) = self.exponent() {
+            self.reference.taken(&mut logs, exponent);
+        }
+        logs
+    }
+
+    /// Logarithms that are so far from those of the estimate, at the reference.
+    pub(crate) fn logs_off_by(&self, steps: impl IntoIterator<Item = f64>) -> Vec<f64> {
+        let mut logs: Vec<f64> = self.logs.iter().zip(steps).map(|(log, step)| log + step).collect();
+        if let (Some(own), Some(exponent)) = (self.exponent(), exponent_of(&logs, self.units_differ)) {
+            self.reference.back(&mut logs, exponent - own);
+        }
+        logs
+    }
+
     /// Logarithms drawn from their normal law; the estimate itself if the parameters are taken as known.
     pub(crate) fn drawn_logs(&self, stream: &mut Stream) -> Vec<f64> {
         let z: Vec<f64> = self.logs.iter().map(|_| stream.sample(StandardNormal)).collect();
-        let steps = self.factor.times(&z).into_iter().chain(std::iter::repeat(0.0));
-        self.logs.iter().zip(steps).map(|(log, step)| log + step).collect()
+        self.logs_off_by(self.factor.times(&z).into_iter().chain(std::iter::repeat(0.0)))
     }
 }
 

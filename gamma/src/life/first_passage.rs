@@ -18,7 +18,6 @@ pub struct FirstPassage {
     law: Law,
     clock: Clock,
     now: f64,
-    exposure_now: f64,
     left: f64,
 }
 
@@ -47,13 +46,12 @@ impl FirstPassage {
 
     /// A joint with `left` > 0 to wear at time `now` of its clock.
     pub(crate) fn with_left(law: Law, clock: Clock, left: f64, now: f64) -> Self {
-        let exposure_now = clock.exposure(now);
-        Self { law, clock, now, exposure_now, left }
+        Self { law, clock, now, left }
     }
 
     /// Exposure gained until `t` from now; none before.
     pub fn exposure(&self, t: f64) -> f64 {
-        (self.clock.exposure(self.now + t.max(0.0)) - self.exposure_now).max(0.0)
+        self.clock.gained(self.now, t.max(0.0)).max(0.0)
     }
 
     /// Reliability if exposure runs `factor` times as fast.
@@ -99,7 +97,7 @@ impl Lifetime for FirstPassage {
 
     /// When exposure reaches its mean at the passage.
     fn typical(&self) -> f64 {
-        self.clock.time(self.exposure_now + self.law.mean_exposure(self.left)) - self.now
+        self.clock.until(self.now, self.law.mean_exposure(self.left))
     }
 
     fn ever(&self) -> f64 {
@@ -152,6 +150,26 @@ mod tests {
             let quantile = life.quantile(p).expect("valid");
             assert!((quantile - expected).abs() < 1e-8, "{p}: {quantile}");
         }
+    }
+
+    #[test]
+    fn a_steady_load_leaves_the_same_life_however_late() {
+        let at = |now: f64| FirstPassage::from(lasers(), Clock::linear(0.3).expect("valid"), 10.0, 5.0, now);
+        let early = at(0.0).expect("valid");
+        for now in [1e-3, 1e14, 1e18, 1e300] {
+            let late = at(now).expect("valid");
+            for p in [0.1, 0.5, 0.9] {
+                assert_eq!(late.quantile(p), early.quantile(p), "{now} {p}");
+            }
+            assert_eq!(late.moments(), early.moments(), "{now}");
+        }
+    }
+
+    #[test]
+    fn a_life_beyond_all_numbers_is_refused() {
+        let clock = Clock::power(1.0, 1e-3).expect("valid");
+        let error = FirstPassage::new(lasers(), clock, 1e9).expect("valid").quantile(0.5).expect_err("none");
+        assert_eq!(error, LifeError::Endless { p: 0.5 });
     }
 
     #[test]

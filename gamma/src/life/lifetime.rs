@@ -100,7 +100,7 @@ pub trait Lifetime {
     /// Time until which the part `p` has failed: B10 is `quantile(0.1)`. Relative accuracy 1e-12.
     ///
     /// # Errors
-    /// [`LifeError::Probability`]; [`LifeError::Never`] where fewer ever fail.
+    /// [`LifeError::Probability`]; [`LifeError::Never`] where fewer ever fail; [`LifeError::Endless`].
     fn quantile(&self, p: f64) -> Result<f64, LifeError> {
         probability(p)?;
         let ever = self.ever();
@@ -109,7 +109,8 @@ pub trait Lifetime {
         }
         // The smaller of the two tails keeps its digits.
         let miss = |t: f64| if p <= 0.5 { self.failed(t) - p } else { (1.0 - p) - self.reliability(t) };
-        Ok(rising_root(&miss, self.typical()))
+        let root = rising_root(&miss, self.typical());
+        if root.is_finite() { Ok(root) } else { Err(LifeError::Endless { p }) }
     }
 
     /// Mean and standard deviation, time as it runs, by integrals of failed part and survivors; relative accuracy ten times

@@ -5,6 +5,7 @@ use super::clock::Clock;
 use super::estimate::{Estimate, exponent_of};
 use super::first_passage::FirstPassage;
 use super::law::Law;
+use super::lifetime::Lifetime;
 use crate::error::{LifeError, non_negative, positive};
 use crate::process::Process;
 
@@ -90,7 +91,9 @@ impl OperatingState {
     /// # Errors
     /// [`LifeError`], if a parameter leaves the range of numbers.
     pub fn life(&self, estimate: &Estimate) -> Result<FirstPassage, LifeError> {
-        self.life_by(estimate, estimate.logs())
+        let life = self.life_by(estimate, estimate.logs())?;
+        let typical = life.typical();
+        if typical > 0.0 && typical.is_finite() { Ok(life) } else { Err(LifeError::OutOfRange { typical }) }
     }
 
     /// Law of wear and clock of a part if the parameters are those estimated.

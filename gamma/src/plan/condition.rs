@@ -212,7 +212,7 @@ impl Monitored {
     /// time beyond failure within it.
     fn within(&self, law: &Law, start: f64, interval: f64, (threshold, alive): (f64, f64)) -> (f64, f64) {
         let before = self.clock.exposure(start);
-        let gained = |t: f64| (self.clock.exposure(start + t) - before).max(0.0);
+        let gained = |t: f64| self.clock.gained(start, t).max(0.0);
         let whole = gained(interval);
         // No more fail than have failed by then, nor than would if all were worn to the threshold.
         let most = law.failure(before + whole, self.failure);

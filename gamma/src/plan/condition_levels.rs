@@ -74,7 +74,7 @@ fn cycles(
     for k in 0..MOST {
         let start = interval * k as f64;
         let before = clock.exposure(start);
-        let gained = |part: f64| (clock.exposure(start + part * interval) - before).max(0.0);
+        let gained = |part: f64| clock.gained(start, part * interval).max(0.0);
         let whole = gained(1.0);
         let is_risky = law.failure(before + whole, failure) > SKIPPED;
         let own = [whole, gained(0.5)];

@@ -1,6 +1,8 @@
 //! A prediction: everything that is told about the remaining life of one joint. In: an estimate, the joint's state, perhaps
 //! readings. Out: numbers with their bands and error budget. Never knows files or terminals.
 
+#[cfg(test)]
+mod exposure_unit_tests;
 mod interval;
 mod machine;
 mod questions;
@@ -163,7 +165,11 @@ impl Prediction {
         };
         let quantile = |p: f64| band(Ask::Quantile(p), life.quantile(p)?);
         let quantiles = [quantile(0.1)?, quantile(0.5)?, quantile(0.9)?];
-        let end = life.quantile(1.0 - TAIL)?;
+        // So far out there may be no number; the course then ends with those that have been told.
+        let end = match life.quantile(1.0 - TAIL) {
+            Err(LifeError::Endless { .. }) => quantiles[2].value,
+            end => end?,
+        };
         let mut course = Vec::with_capacity(TIMES);
         for k in 0..TIMES {
             let t = end * k as f64 / (TIMES - 1) as f64;

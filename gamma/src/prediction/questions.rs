@@ -91,6 +91,7 @@ impl Ask {
                 Self::Mean if survived == 0.0 => life.typical(),
                 _ => match self.by(&rest) {
                     Err(LifeError::NoneSurvives { .. }) => return Ok((value, 0.0)),
+                    Err(LifeError::Endless { .. }) => f64::INFINITY,
                     answer => answer?,
                 },
             };

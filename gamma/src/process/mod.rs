@@ -9,12 +9,14 @@ mod definition;
 mod gamma;
 mod inverse_gaussian;
 mod random_effect;
+mod reference;
 mod wiener;
 
 pub use definition::{Process, Slice, Term};
 pub use gamma::Gamma;
 pub use inverse_gaussian::InverseGaussian;
 pub use random_effect::{RandomEffect, RandomLaw};
+pub(crate) use reference::{Reference, sheared};
 pub use wiener::Wiener;
 
 /// All processes that can be fitted and predicted from; the first is the default.

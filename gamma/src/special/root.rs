@@ -13,21 +13,48 @@ pub(crate) fn guarded(next: f64, x: f64, (low, high): (f64, f64)) -> f64 {
     }
 }
 
-/// Positive root of a rising function, looked for from `start` > 0 on by doubling and halving, then by [`bracketed`]. Relative
-/// accuracy 1e-13.
+/// Roots are looked for between these.
+const NEAREST: f64 = 1e-300;
+const FARTHEST: f64 = f64::MAX / 4.0;
+/// Doublings or halvings, some nine digits, after which each step is the square of the one before: ten more reach the largest number.
+const DOUBLED: u32 = 30;
+
+/// Positive root of a rising function, looked for from `start` on by doubling and halving, then by [`bracketed`]; infinite where it
+/// is below zero up to the largest numbers. Relative accuracy 1e-13.
 pub(crate) fn rising_root(f: &dyn Fn(f64) -> f64, start: f64) -> f64 {
     rising_root_within(f, start, 1e-13)
 }
 
 /// The same to another relative accuracy.
 pub(crate) fn rising_root_within(f: &dyn Fn(f64) -> f64, start: f64, accuracy: f64) -> f64 {
+    let start = start.clamp(NEAREST, FARTHEST);
     let (mut low, mut high) = ((0.5 * start, None), (start, f(start)));
-    while high.1 < 0.0 && high.0 < f64::MAX / 4.0 {
-        (low, high) = ((high.0, Some(high.1)), (2.0 * high.0, f(2.0 * high.0)));
+    let (mut factor, mut doubled) = (2.0, 0);
+    while high.1 < 0.0 {
+        if high.0 >= FARTHEST {
+            return f64::INFINITY;
+        }
+        let next = (factor * high.0).min(FARTHEST);
+        (low, high) = ((high.0, Some(high.1)), (next, f(next)));
+        doubled += 1;
+        if doubled >= DOUBLED {
+            factor *= factor;
+        }
     }
     let mut known = (low.0, low.1.unwrap_or_else(|| f(low.0)));
-    while known.1 > 0.0 && known.0 > 1e-300 {
-        (high, known) = (known, (0.5 * known.0, f(0.5 * known.0)));
+    let (mut factor, mut halved) = (0.5, 0);
+    while known.1 > 0.0 && known.0 > NEAREST {
+        let next = (factor * known.0).max(NEAREST);
+        (high, known) = (known, (next, f(next)));
+        halved += 1;
+        if halved >= DOUBLED {
+            factor *= factor;
+        }
+    }
+    while high.0 > 2.0 * known.0 && known.1 <= 0.0 {
+        let middle = libm::sqrt(known.0) * libm::sqrt(high.0);
+        let middle = (middle, f(middle));
+        if middle.1 < 0.0 { known = middle } else { high = middle }
     }
     bracketed(f, known, high, accuracy)
 }
@@ -93,6 +120,20 @@ mod tests {
             }
         }
         assert_eq!(rising_root(&|x| x - 4.0, 4.0), 4.0);
+        // From anywhere, to anywhere, or nowhere.
+        for start in [0.0, 1.0, f64::INFINITY] {
+            for root in [1e-200, 1.0, 1e250] {
+                let found = rising_root(&|x| libm::log(x / root), start);
+                assert!((found / root - 1.0).abs() < 1e-12, "{found} {root} from {start}");
+            }
+            let values = Cell::new(0);
+            let counted = |_: f64| {
+                values.set(values.get() + 1);
+                -0.1
+            };
+            assert_eq!(rising_root(&counted, start), f64::INFINITY);
+            assert!(values.get() < 100, "{} values", values.get());
+        }
         let near = rising_root_within(&|x| x * x - 2.0, 1.0, 1e-3);
         assert!((near - std::f64::consts::SQRT_2).abs() < 1e-3 * near, "{near}");
     }
