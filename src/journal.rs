@@ -37,6 +37,9 @@ pub enum JournalError {
     /// It cannot be written or read, or its folder is not free.
     #[error(transparent)]
     Write(#[from] WriteError),
+    /// A run is to be gone on with in a folder that has other files, and none.
+    #[error("`{}` has files, but no run of linkwear to go on with", .0.display())]
+    NoRun(PathBuf),
     /// Another process is writing to it.
     #[error("another run is writing to `{}`", .0.display())]
     InUse(PathBuf),

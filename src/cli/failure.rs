@@ -174,6 +174,10 @@ impl Failure {
                 let help = "choose another folder, or go on with the run that is there by --resume";
                 return Self::new("C0004", Some(folder), &error, help);
             }
+            JournalError::NoRun(folder) => {
+                let help = "nothing was changed; give the folder of the run, or a new one to begin it there";
+                return Self::new("C0004", Some(folder), &error, help);
+            }
             JournalError::Write(WriteError::System { file, .. }) => {
                 let help =
                     "what was finished before is kept; make room or choose another folder, then --resume";
@@ -382,8 +386,15 @@ pub fn remarks<T: Display>(of_file: Vec<Value>, code: &str, later: &[T]) -> Vec<
 /// Reports what clap says about arguments it could not read; help and version are not errors.
 pub fn wrong_arguments(error: &clap::Error, format: Format) -> ExitCode {
     if format == Format::Text || !error.use_stderr() {
-        let _ = error.print();
-        return ExitCode::from(if error.use_stderr() { USAGE } else { 0 });
+        let written = error.print();
+        return match written {
+            _ if error.use_stderr() => ExitCode::from(USAGE),
+            // A reader who has gone away has seen enough, as in all answers.
+            Err(full) if full.kind() != io::ErrorKind::BrokenPipe => {
+                Failure::from(WriteError::of(Path::new(STDOUT))(full)).report(format)
+            }
+            _ => ExitCode::SUCCESS,
+        };
     }
     let text = error.render().to_string();
     let message = match error.kind() {

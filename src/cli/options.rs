@@ -8,7 +8,7 @@ use crate::table::FORMATS;
 use clap::{Args, ValueEnum};
 use linkwear_codegen::Closure;
 
-use super::value::{assignment, one_of, positive};
+use super::value::{accuracy, assignment, one_of, positive};
 
 const BACKENDS: [(&str, Backend); 4] = [
     ("auto", Backend::Auto),
@@ -68,7 +68,7 @@ pub struct EquationsChoice {
 #[derive(Debug, Args)]
 pub struct RevolutionArguments {
     /// Relative error of the wear integral of a revolution [default: 1e-6; 1e-5 with `profile = true`].
-    #[arg(long, value_name = "E", value_parser = positive)]
+    #[arg(long, value_name = "E", value_parser = accuracy)]
     pub tol: Option<f64>,
     /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
@@ -96,7 +96,7 @@ pub struct MotionArguments {
     /// Accuracy of dopri5, relative to every value, but where something is driven absolute below 1 m, rad, m/s or rad/s [default: 1e-9];
     /// with flexible bodies and of rodas5p, relative to their loads, so that joint forces have it [default: 1e-7]; of rk43, of the wear
     /// integral, 1e-4 or finer [default: 1e-6].
-    #[arg(long, value_name = "E", value_parser = positive)]
+    #[arg(long, value_name = "E", value_parser = accuracy)]
     pub tol: Option<f64>,
 }
 

@@ -8,6 +8,7 @@ use linkwear_codegen::limits::THREADS;
 use linkwear_codegen::spec::{Dimension, parse_expression};
 
 use crate::study::Axis;
+use linkwear_runtime::Integrator;
 
 /// One of some names, each with what it means.
 pub fn one_of<T: Clone + Send + Sync + 'static>(
@@ -42,6 +43,23 @@ pub fn axis(text: &str) -> Result<Axis, String> {
     Axis::parse(text).map_err(|error| {
         format!("{error}; write NAME=A..B:N, as speed=5Hz..20Hz:4, or NAME=a,b,c, as speed=5Hz,10Hz")
     })
+}
+
+/// A parameter that is sought, and between which bounds.
+pub fn sought(text: &str) -> Result<Axis, String> {
+    let range = "write NAME=LO..HI, as c0=5um..50um";
+    let axis = Axis::parse(text).map_err(|error| format!("{error}; {range}"))?;
+    match crate::identify::Free::new(&axis) {
+        Ok(_) => Ok(axis),
+        Err(error) => Err(format!("{error}; {range}")),
+    }
+}
+
+/// An accuracy that a run may have.
+pub fn accuracy(text: &str) -> Result<f64, String> {
+    let known = Integrator::TOLERANCES;
+    let value = text.trim().parse().ok().filter(|value| known.contains(value));
+    value.ok_or_else(|| format!("a number between {:e} and {} is needed", known.start(), known.end()))
 }
 
 /// `sobol:N`.

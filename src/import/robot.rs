@@ -79,6 +79,8 @@ pub struct Joint {
     pub spring: Option<Spring>,
     /// Inertia that the coordinate has besides that of the links [kg m^2 or kg]: of a rotor behind a gear.
     pub armature: f64,
+    /// Limits of what all its actuators give together [N m or N].
+    pub actuated: Option<[f64; 2]>,
     /// The joint that it moves with.
     pub follows: Option<Follows>,
     /// Where the coordinate is held [rad or m].

@@ -60,6 +60,24 @@ fn the_shipped_arm_compiles_held_and_floating() {
     }
 }
 
+#[test]
+fn what_joints_of_several_coordinates_lose_is_told() {
+    let more = "<dynamics damping=\"0.5\" friction=\"0.2\"/><limit effort=\"7\" velocity=\"2\"/>\
+                <safety_controller k_velocity=\"1\"/><calibration rising=\"0\"/>";
+    for kind in ["planar", "floating"] {
+        let found = from_urdf(&one(kind, MASS, more), Base::Fixed).expect("a robot");
+        for what in
+            ["damping 0.5", "friction 0.2", "effort 7", "velocity 2", "<safety_controller>", "<calibration>"]
+        {
+            assert!(
+                found.left_out.iter().any(|line| line.contains(what)),
+                "{kind} {what}: {:?}",
+                found.left_out
+            );
+        }
+    }
+}
+
 /// Two halves of a bar fixed to each other are the bar.
 #[test]
 fn links_that_are_fixed_to_each_other_are_one_body() {

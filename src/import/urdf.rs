@@ -12,7 +12,9 @@ use super::robot::{Follows, Joint, Kind, Link, Robot};
 use super::xml::Element;
 
 /// Elements that say nothing of how a robot moves, and what they are.
-const IGNORED: [(&str, &str); 5] = [
+const IGNORED: [(&str, &str); 7] = [
+    ("safety_controller", "limits of a controller"),
+    ("calibration", "where a joint's sensor has its marks"),
     ("transmission", "gears between motors and joints"),
     ("gazebo", "settings of a simulator"),
     ("material", "colours"),
@@ -252,11 +254,25 @@ fn joint(
         damping: 0.0,
         spring: None,
         armature: 0.0,
+        actuated: None,
         follows: None,
         held: None,
         remarks: Vec::new(),
     };
     let is_one = kind.is_single();
+    if matches!(kind, Kind::Planar | Kind::Free) {
+        for tag in ["dynamics", "limit"] {
+            if let Some(element) = node.first(tag) {
+                let values: Vec<String> =
+                    element.attributes.iter().map(|(key, value)| format!("{key} {value}")).collect();
+                left_out.push(format!(
+                    "<{tag}> of {}, a joint with several coordinates: {}",
+                    joint.name,
+                    values.join(", ")
+                ));
+            }
+        }
+    }
     if let Some(dynamics) = node.first("dynamics").filter(|_| is_one) {
         joint.damping = dynamics.number("damping", Some(0.0))?;
         if joint.damping < 0.0 {

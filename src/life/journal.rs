@@ -11,7 +11,7 @@ use linkwear_runtime::{Orbit, RunWarning, Steadiness};
 use serde::{Deserialize, Serialize};
 
 use super::paths::LifePath;
-use crate::files::claim_folder;
+use crate::files::{WriteError, claim_folder};
 use crate::journal::{Identity, Journal, JournalError};
 
 /// The file in the folder.
@@ -76,11 +76,15 @@ impl LifeJournal {
     /// The journal of an earlier run, to go on with; a new one if the folder has none.
     ///
     /// # Errors
-    /// [`JournalError::InUse`], [`JournalError::Damaged`], [`JournalError::OtherVersion`], [`JournalError::Write`].
+    /// [`JournalError::NoRun`], [`JournalError::InUse`], [`JournalError::Damaged`], [`JournalError::OtherVersion`],
+    /// [`JournalError::Write`].
     pub fn resume(folder: &Path) -> Result<Self, JournalError> {
         match Journal::resume(&folder.join(NAME))? {
             Some((kept, records)) => Ok(Self::with(kept, records)),
-            None => Self::create(folder),
+            None => Self::create(folder).map_err(|error| match error {
+                JournalError::Write(WriteError::Exists(folder)) => JournalError::NoRun(folder),
+                error => error,
+            }),
         }
     }
 

@@ -75,7 +75,7 @@ fn wrong_questions_are_answered_with_what_to_write() {
         (curve("few.csv", "t [s],R1.drive [N m]\n0,1\n"), DAMPER, "C0011", "measure more"),
         (curve("good.csv", good), "c_rocker=0.5..0.005 N m s/rad", "C0001", "NAME=LO..HI"),
         (curve("good.csv", good), "c_rocker=0.005,0.5", "C0001", "NAME=LO..HI"),
-        (curve("good.csv", good), "b=290 mm..310 kg", "C0001", "NAME=A..B"),
+        (curve("good.csv", good), "b=290 mm..310 kg", "C0001", "NAME=LO..HI"),
         (
             curve("angle.csv", "t [s],R1.q [rad]\n0,0\n0.1,1.3\n0.2,2.5\n"),
             DAMPER,

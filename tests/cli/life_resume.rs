@@ -130,6 +130,18 @@ fn a_folder_has_one_run_at_a_time() {
 }
 
 #[test]
+fn a_folder_of_other_files_has_no_run_to_go_on_with() {
+    let folder = Folder::new("foreign");
+    let notes = folder.write("notes.txt", "mine");
+    let holder = folder.path("");
+    let answer = linkwear(&["life", "mechanisms/rssr.toml", "--out", &holder, "--resume"]);
+    assert_eq!(answer.code, 1, "{}", answer.err);
+    assert!(answer.err.contains("C0004") && answer.err.contains("no run of linkwear"), "{}", answer.err);
+    assert!(!answer.err.contains("by --resume"), "{}", answer.err);
+    assert_eq!(fs::read_to_string(notes).expect("the file"), "mine");
+}
+
+#[test]
 fn only_the_same_run_goes_on_and_more_lives_extend_it() {
     let folder = Folder::new("same");
     let ask = |out: &str, count: &str, more: &[&str]| {

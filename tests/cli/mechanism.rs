@@ -236,3 +236,22 @@ fn check_lists_couplings_stops_states_and_sensors() {
     let pendulum = linkwear(&["check", "mechanisms/pendulum.toml", "--format", "json"]).json();
     assert!(["couplings", "stops", "states", "sensors"].iter().all(|key| pendulum[*key].is_null()));
 }
+
+#[test]
+fn a_hardness_is_given_as_in_the_file() {
+    let check = |set: &str| linkwear(&["check", "mechanisms/rssr.toml", "--set", set]);
+    for hardness in ["hardness=60 HRC", "hardness=700 HV", "hardness=7 GPa"] {
+        let answer = check(hardness);
+        assert_eq!(answer.code, 0, "{hardness}: {}", answer.err);
+    }
+    assert!(check("hardness=60 kg").err.contains("E0303"));
+    let folder = Folder::new("hardness");
+    let text = std::fs::read_to_string("examples/data/worn_journal.toml").expect("a shipped file");
+    assert!(text.contains("hardness_ratio = 0.5"));
+    let with = |journal: &str| {
+        let file = folder.write("journal.toml", &text.replace("hardness_ratio = 0.5", journal));
+        linkwear(&["check", &file])
+    };
+    let journal = with("journal_hardness = \"700 HV\"");
+    assert_eq!(journal.code, 0, "{}", journal.err);
+}

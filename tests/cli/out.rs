@@ -243,8 +243,11 @@ fn a_dash_is_stdout_with_the_rows_and_nothing_else() {
         head.status.success() && head.stderr.is_empty() && head.stdout.starts_with(b"t [s],"),
         "{head:?}"
     );
-    for line in ["--out -", "--time 0.1"] {
-        let full = shell(&format!("\"$0\" simulate {PENDULUM} {line} > /dev/full"));
+    let run = format!("simulate {PENDULUM}");
+    for line in
+        [&format!("{run} --out -"), &format!("{run} --time 0.1"), "--help", "--version", "life --help"]
+    {
+        let full = shell(&format!("\"$0\" {line} > /dev/full"));
         let said = String::from_utf8_lossy(&full.stderr);
         assert_eq!(full.status.code(), Some(1), "{said}");
         assert!(said.contains("cannot write `stdout`") && said.contains("make room"), "{said}");

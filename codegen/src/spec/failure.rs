@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::de::{Error, Expected, Unexpected};
 
-use crate::diagnostic::{Code, Diagnostic};
+use crate::diagnostic::{Code, Diagnostic, nearest};
 use crate::source::Span;
 
 /// An error of one value, with its place once known.
@@ -30,6 +30,10 @@ impl Failure {
         Self { reported: true, ..Self::of(Code::WrongType, String::new()) }
     }
 
+    pub(super) fn advise(self, help: &str) -> Self {
+        Self { help: Some(help.to_owned()), ..self }
+    }
+
     /// Says which list belongs under `key`.
     pub(super) fn under(mut self, key: &str) -> Self {
         let Some(text) = self.in_place_of_list.take() else { return self };
@@ -47,6 +51,11 @@ impl Failure {
         self
     }
 
+    /// Takes the place of the key, if that is what is wrong.
+    pub(super) fn at_key(self, span: Span) -> Self {
+        if self.code == Code::UnknownKey { Self { span: Some(span), ..self } } else { self }
+    }
+
     pub(super) fn or_at(mut self, span: Span) -> Self {
         self.span.get_or_insert(span);
         self
@@ -60,6 +69,24 @@ impl Failure {
             None => diagnostic,
         }
     }
+}
+
+/// What is told of a key that a table does not have.
+pub(super) fn unknown_key(key: &str) -> String {
+    format!("the key `{key}` means nothing here")
+}
+
+/// The key that was meant, or all.
+pub(super) fn known_keys(key: &str, known: &[&str]) -> String {
+    nearest(key, known.iter().copied()).map_or_else(
+        || {
+            format!(
+                "known keys here: {}",
+                known.iter().map(|key| format!("`{key}`")).collect::<Vec<_>>().join(", ")
+            )
+        },
+        |name| format!("did you mean `{name}`?"),
+    )
 }
 
 impl fmt::Display for Failure {
@@ -91,18 +118,35 @@ impl Error for Failure {
             "a boolean" => ("true or false", Some("write `true` or `false` without quotes")),
             "a string" => ("a text", Some("write one text in quotes")),
             "i64" => ("a whole number", Some("write a whole number without quotes")),
-            other if other.starts_with("struct ") => ("a table", Some("write a table, `{ key = value }`")),
-            other => (other, None),
+            other if other.starts_with("struct ") || other == "a table" => {
+                ("a table", Some("write a table, `{ key = value }`"))
+            }
+            other if other.starts_with("enum ") => ("a word", Some("write a word in quotes")),
+            other if other.starts_with("a quantity") => (
+                other,
+                Some(
+                    "write a number with its unit in quotes, `\"120 mm\"`, a formula in quotes, or a bare number",
+                ),
+            ),
+            // Entries of tables, and what tables stand for.
+            other => {
+                (other, Some("write what is needed there; `linkwear schema` has all keys with their types"))
+            }
         };
         let mut failure = Self::of(Code::WrongType, format!("found {found} where {expected} is needed"));
         failure.help = cure.map(str::to_owned);
         failure.in_place_of_list = (expected == "a list").then_some(text);
         failure
     }
+    fn unknown_field(key: &str, expected: &'static [&'static str]) -> Self {
+        let mut failure = Self::of(Code::UnknownKey, unknown_key(key));
+        failure.help = Some(known_keys(key, expected));
+        failure
+    }
     fn unknown_variant(variant: &str, expected: &'static [&'static str]) -> Self {
         let allowed = expected.iter().map(|word| format!("\"{word}\"")).collect::<Vec<_>>().join(" or ");
         let mut failure = Self::of(Code::BadChoice, format!("\"{variant}\" is not {allowed}"));
-        failure.help = crate::diagnostic::nearest(variant, expected.iter().copied())
+        failure.help = nearest(variant, expected.iter().copied())
             .map_or(Some("choose one of them".to_owned()), |word| Some(format!("did you mean \"{word}\"?")));
         failure
     }

@@ -191,7 +191,7 @@ tables! {
         /// Hardness of the bush over that of the journal: the journal wears too, so much of what the bush loses.
         /// [1; above 0; default none; e.g. 0.25]
         pub hardness_ratio: Option<Quantity>,
-        /// Hardness of the journal, in place of `hardness_ratio`: the journal wears too.
+        /// Hardness of the journal, written as that of the softer side, in place of `hardness_ratio`: the journal wears too.
         /// [Pa; above 0; default none; e.g. "7 GPa"]
         pub journal_hardness: Option<Quantity>,
         /// Wear coefficient of the journal: the journal wears too.

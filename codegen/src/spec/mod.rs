@@ -54,7 +54,7 @@ pub use include::{IncludeSpec, RotationSpec};
 pub use joint::{ByCoordinate, DryFrictionSpec, EachCoordinate, JointSpec, SpringPart, SpringSpec};
 pub use mission::{MissionSpec, SegmentJointSpec, SegmentSpec};
 pub use parse::{Spec, parse};
-pub use point::PointSpec;
+pub use point::{POINT_KEYS, PointSpec};
 pub use repeat::{expand, group_spans};
 pub use sensor::{Sensor, SensorTable};
 pub use start::{StartSpec, StartTable};

@@ -7,10 +7,13 @@ use std::fmt;
 #[cfg(test)]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
-use serde::de::{Deserializer, MapAccess, Visitor};
+use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, Visitor};
 
 use super::texts::texts_of;
-use super::written::{Name, PerBody, Table, Triple};
+use super::written::{At, Name, PerBody, Table, Triple};
+
+/// Keys of a point's table; all others are names of bodies.
+pub const POINT_KEYS: &[&str] = &["at", "on", "assumed", "doc"];
 
 /// Where a point is.
 #[derive(Clone, Debug, Default)]
@@ -45,6 +48,28 @@ impl<'de> Deserialize<'de> for PointSpec {
     }
 }
 
+/// The coordinates that a point has on the body of this name. What is no list makes the name a key, which is none.
+struct OfBody<'a>(&'a str);
+
+#[derive(Deserialize)]
+#[serde(rename = "$linkwear::ByForm")]
+enum OfBodyForm {
+    #[serde(rename = "list")]
+    Coordinates(At<Triple>),
+    #[serde(rename = "scalar", alias = "table")]
+    Other(IgnoredAny),
+}
+
+impl<'de> DeserializeSeed<'de> for OfBody<'_> {
+    type Value = At<Triple>;
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<At<Triple>, D::Error> {
+        match OfBodyForm::deserialize(deserializer)? {
+            OfBodyForm::Coordinates(at) => Ok(at),
+            OfBodyForm::Other(_) => Err(Error::unknown_field(self.0, POINT_KEYS)),
+        }
+    }
+}
+
 struct PointTable(PointSpec);
 
 impl<'de> Deserialize<'de> for PointTable {
@@ -63,7 +88,10 @@ impl<'de> Deserialize<'de> for PointTable {
                         "on" => point.on = Some(map.next_value()?),
                         "assumed" => point.assumed = map.next_value()?,
                         "doc" => drop(map.next_value::<String>()?),
-                        _ => point.by_body.0.push((key, map.next_value()?)),
+                        _ => {
+                            let at = map.next_value_seed(OfBody(&key.value))?;
+                            point.by_body.0.push((key, at));
+                        }
                     }
                 }
                 Ok(PointTable(point))

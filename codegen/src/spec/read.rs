@@ -14,10 +14,13 @@ use serde::{Deserialize, forward_to_deserialize_any};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::failure::Failure;
+use super::failure::{self, Failure};
 use super::written::{BY_FORM, WITH_SPAN};
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
+
+/// For numbers that do not fit.
+const LARGE: &str = "write it with a point or an exponent, as `1e20`";
 
 /// What came up while reading.
 #[derive(Default)]
@@ -81,11 +84,11 @@ impl Reader<'_, '_> {
             DeValue::Boolean(value) => visitor.visit_bool(*value),
             DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
                 Ok(value) => visitor.visit_i64(value),
-                Err(_) => Err(Failure::custom("an integer that does not fit into 64 bits")),
+                Err(_) => Err(Failure::custom("an integer that does not fit into 64 bits").advise(LARGE)),
             },
             DeValue::Float(number) => match number.as_str().parse() {
                 Ok(value) => visitor.visit_f64(value),
-                Err(_) => Err(Failure::custom("a number that cannot be read")),
+                Err(_) => Err(Failure::custom("a number that cannot be read").advise(LARGE)),
             },
             other @ DeValue::Datetime(_) => Err(Failure::invalid_type(unexpected(other), &visitor)),
         };
@@ -197,7 +200,7 @@ struct Entry<'a, 'i> {
 struct Entries<'a, 'i> {
     /// In reverse, so that the next one is popped.
     rest: Vec<Entry<'a, 'i>>,
-    value: Option<(&'a str, &'a Spanned<DeValue<'i>>)>,
+    value: Option<Entry<'a, 'i>>,
     notes: &'a RefCell<Notes>,
 }
 
@@ -227,15 +230,9 @@ impl<'a, 'i> Entries<'a, 'i> {
 }
 
 fn unknown_key(entry: &Entry<'_, '_>, fields: &[&str]) -> Diagnostic {
-    let listed = || fields.iter().map(|field| format!("`{field}`")).collect::<Vec<_>>().join(", ");
-    let diagnostic = Diagnostic::new(Code::UnknownKey, format!("the key `{}` means nothing here", entry.key))
+    Diagnostic::new(Code::UnknownKey, failure::unknown_key(entry.key))
         .at(entry.key_span, "unknown key")
-        .did_you_mean(entry.key, fields.iter().copied());
-    if diagnostic.help.is_empty() {
-        diagnostic.help(format!("known keys here: {}", listed()))
-    } else {
-        diagnostic
-    }
+        .help(failure::known_keys(entry.key, fields))
 }
 
 impl<'de> MapAccess<'de> for Entries<'_, '_> {
@@ -243,12 +240,13 @@ impl<'de> MapAccess<'de> for Entries<'_, '_> {
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Failure> {
         let Some(entry) = self.rest.pop() else { return Ok(None) };
-        self.value = Some((entry.key, entry.value));
-        seed.deserialize(Key { text: entry.key, span: entry.key_span }).map(Some)
+        let key = Key { text: entry.key, span: entry.key_span };
+        self.value = Some(entry);
+        seed.deserialize(key).map(Some)
     }
 
     fn next_value_seed<V: DeserializeSeed<'de>>(&mut self, seed: V) -> Result<V::Value, Failure> {
-        let Some((key, value)) = self.value.take() else {
+        let Some(Entry { key, key_span, value }) = self.value.take() else {
             return Err(Failure::custom("a key without a value"));
         };
         let span = value.span().into();
@@ -256,7 +254,7 @@ impl<'de> MapAccess<'de> for Entries<'_, '_> {
             if failure.reported {
                 return failure;
             }
-            let failure = failure.under(key);
+            let failure = failure.under(key).at_key(key_span);
             let mut notes = self.notes.borrow_mut();
             notes.diagnostics.push(failure.diagnostic(span));
             notes.skipped.push(span);

@@ -1,5 +1,7 @@
 //! What a run is told.
 
+use core::ops::RangeInclusive;
+
 use crate::description::Description;
 use crate::dynamics::SINGULAR_PIVOT;
 use crate::error::{RunError, SetupError};
@@ -54,6 +56,8 @@ pub enum Integrator {
 }
 
 impl Integrator {
+    /// Accuracies that a run may ask for.
+    pub const TOLERANCES: RangeInclusive<f64> = 1e-14..=1e-1;
     /// Tolerance of smooth motion where none is asked for.
     pub const SMOOTH_TOLERANCE: f64 = 1e-9;
     /// Tolerance with flexible bodies where none is asked for.
@@ -147,7 +151,12 @@ impl Settings {
             | Integrator::Rodas5P { tolerance, max_step }
             | Integrator::Switching { tolerance, max_step }
             | Integrator::Rk43 { tolerance, max_step } => {
-                need((1e-14..=1e-1).contains(&tolerance), "tolerance", tolerance, "between 1e-14 and 0.1")?;
+                need(
+                    Integrator::TOLERANCES.contains(&tolerance),
+                    "tolerance",
+                    tolerance,
+                    "between 1e-14 and 0.1",
+                )?;
                 max_step.map_or(Ok(()), |step| positive("max_step", step))?;
             }
             Integrator::GeneralizedAlpha { step, rho } => {

@@ -9,7 +9,7 @@ use super::super::options::Replace;
 use super::super::options::{EquationsChoice, Input, IntegratorName};
 #[cfg(feature = "page")]
 use super::super::value::output;
-use super::super::value::{assignment, axis, from_zero, positive};
+use super::super::value::{accuracy, assignment, from_zero, positive, sought};
 use crate::study::Axis;
 
 #[derive(Debug, Args)]
@@ -19,7 +19,7 @@ pub struct IdentifyArguments {
     pub input: Input,
     /// A parameter that is sought, and its bounds; units as in the file. Repeatable. Between positive bounds it is sought by its
     /// logarithm.
-    #[arg(long, value_name = "NAME=LO..HI", value_parser = axis, required = true)]
+    #[arg(long, value_name = "NAME=LO..HI", value_parser = sought, required = true)]
     pub free: Vec<Axis>,
     /// A measured curve: columns `t [s]` and others named as `simulate --out` names them, with their units: `R1.drive [N m]`.
     #[arg(long, value_name = "CURVE.csv")]
@@ -65,7 +65,7 @@ pub struct IdentifyArguments {
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
     pub step: Option<f64>,
     /// Accuracy of dopri5, relative to every value [default: 1e-9]; of rk43, of the wear integral [default: 1e-6].
-    #[arg(long, value_name = "E", value_parser = positive)]
+    #[arg(long, value_name = "E", value_parser = accuracy)]
     pub tol: Option<f64>,
     /// Draw measured and predicted readings, and residuals (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]

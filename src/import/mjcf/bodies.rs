@@ -95,6 +95,11 @@ impl Tree<'_> {
                         body.geoms = Some(body.geoms.map_or(own, |before| together(&before, &own)));
                     }
                 }
+                // As in MuJoCo, which has no such element there.
+                "inertial" if element.tag == "frame" => {
+                    let cure = "put it into the body itself, and its `pos` and `quat` as they are there";
+                    return Err(child.fault("<inertial> stands in a <frame>", cure));
+                }
                 "inertial" => body.inertial = Some(self.inertial(child)?),
                 "joint" | "freejoint" => self.joint(child, body, frame, class)?,
                 "site" => {

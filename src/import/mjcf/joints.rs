@@ -106,6 +106,15 @@ fn passive(
             joint.remarks.push(format!("limit: {} rad from where it is drawn", settings.angle * high));
         }
     }
+    // MuJoCo knows no such limit of balls and free joints.
+    if joint.kind.is_single() && is_limited(element, "actuatorfrclimited", "actuatorfrcrange", settings)? {
+        let [low, high] = element.numbers("actuatorfrcrange", None)?;
+        if low >= high {
+            let message = format!("`actuatorfrcrange` of joint `{name}` is empty");
+            return Err(element.fault(message, "the lower limit comes first"));
+        }
+        joint.actuated = Some([low, high]);
+    }
     if joint.kind.is_single() && reference != 0.0 {
         joint.remarks.push(format!("as drawn is {reference} {length} in the file it is from, 0 here"));
     }
@@ -125,6 +134,7 @@ pub fn plain(name: String, kind: Kind, at: [f64; 3], axis: [f64; 3]) -> Joint {
         damping: 0.0,
         spring: None,
         armature: 0.0,
+        actuated: None,
         follows: None,
         held: None,
         remarks: Vec::new(),

@@ -301,3 +301,32 @@ fn cut_and_mutated_models_are_answered() {
         }
     }
 }
+
+#[test]
+fn the_force_of_all_actuators_of_a_joint_has_its_limit() {
+    let with = |joint: &str, actuators: &str| {
+        let world = format!("<body><joint name=\"j\" {joint}/>{BALL}</body>");
+        read(&model(&world, &format!("<actuator>{actuators}</actuator>")))
+    };
+    let two = "<motor name=\"a\" joint=\"j\"/><motor name=\"b\" joint=\"j\" gear=\"2\"/>";
+    let range = "actuatorfrcrange=\"-3 4\"";
+    let found = with(&format!("{range} armature=\"0.1\""), two);
+    let sum = "-(0.1 kg m^2)*j.a + clamp(a + (2.0)*b, -3.0 N m, 4.0 N m)";
+    assert!(found.text.contains(sum), "{}", found.text);
+    compiled(&found.text);
+    let off = with(&format!("{range} actuatorfrclimited=\"false\""), two);
+    assert!(!off.text.contains("clamp"), "{}", off.text);
+    // Nothing acts there that could be limited.
+    let idle = with(range, "");
+    assert!(idle.left_out.iter().any(|line| line.contains("actuatorfrcrange")), "{:?}", idle.left_out);
+    let world = format!("<body><joint actuatorfrcrange=\"3 -3\"/>{BALL}</body>");
+    assert!(from_robot(&model(&world, ""), Base::Fixed, None, &NoFiles).is_err());
+}
+
+#[test]
+fn an_inertial_in_a_frame_is_refused_at_its_line() {
+    let inertial = "<inertial mass=\"1\" pos=\"0 0 0\" diaginertia=\"1 1 1\"/>";
+    let text = model(&format!("<body><joint/>\n<frame pos=\"5 0 0\">{inertial}</frame></body>"), "");
+    let error = from_robot(&text, Base::Fixed, None, &NoFiles).expect_err("no element of a frame");
+    assert!(error.message.contains("<frame>") && error.line == 5, "{error:?}");
+}

@@ -31,6 +31,7 @@ pub fn written(robot: &Robot, moving: &[Written<'_>], names: &mut Names, left_ou
             add(one.number, format!("-({:?} {unit})*{}.a", one.joint.armature, one.name));
         }
     }
+    let mut sums: Vec<Vec<String>> = vec![Vec::new(); robot.joints.len()];
     for actuator in &robot.actuators {
         let Some(one) = moving.iter().find(|one| one.number == actuator.joint) else {
             left_out.push(format!("the actuator {}: its joint is left out", actuator.name));
@@ -47,7 +48,18 @@ pub fn written(robot: &Robot, moving: &[Written<'_>], names: &mut Names, left_ou
         }
         let (unit, force) = law(actuator, one.joint.kind, &one.name, &input);
         let _ = writeln!(inputs, "{input} = {{ default = 0, unit = \"{unit}\" }}");
-        add(one.number, force);
+        sums[one.number].push(force);
+    }
+    for one in moving {
+        let sum = sums[one.number].join(" + ");
+        match one.joint.actuated {
+            Some(_) if sum.is_empty() => left_out.push(format!(
+                "`actuatorfrcrange` of {}: no actuator that is carried over acts on it",
+                one.joint.name
+            )),
+            _ if sum.is_empty() => {}
+            limits => add(one.number, clamped(sum, limits, units(one.joint.kind)[0])),
+        }
     }
     if !inputs.is_empty() {
         inputs = format!("\n# Signals of actuators.\n[inputs]\n{inputs}");
@@ -55,13 +67,25 @@ pub fn written(robot: &Robot, moving: &[Written<'_>], names: &mut Names, left_ou
     Laws { inputs, forces }
 }
 
+/// Units of a force along a coordinate, of its springs and dampers, of the coordinate and its speed.
+fn units(kind: Kind) -> [&'static str; 5] {
+    match kind {
+        Kind::Prismatic => ["N", "N/m", "N s/m", "m", "m/s"],
+        _ => ["N m", "N m/rad", "N m s/rad", "rad", "rad/s"],
+    }
+}
+
+fn clamped(inner: String, limits: Option<[f64; 2]>, unit: &str) -> String {
+    match limits {
+        Some([low, high]) => format!("clamp({inner}, {low:?} {unit}, {high:?} {unit})"),
+        None => inner,
+    }
+}
+
 /// The unit of an actuator's signal, and its force along the coordinate.
 fn law(actuator: &Actuator, kind: Kind, joint: &str, input: &str) -> (&'static str, String) {
     let Actuator { gear, gain, bias: [constant, by_way, by_speed], .. } = *actuator;
-    let (force, per_way, per_speed, way, speed) = match kind {
-        Kind::Prismatic => ("N", "N/m", "N s/m", "m", "m/s"),
-        _ => ("N m", "N m/rad", "N m s/rad", "rad", "rad/s"),
-    };
+    let [force, per_way, per_speed, way, speed] = units(kind);
     // A signal that is compared with the coordinate or its speed is one of them.
     let (unit, of_gain) = if by_way != 0.0 && gain == -by_way {
         (way, per_way)
@@ -73,10 +97,6 @@ fn law(actuator: &Actuator, kind: Kind, joint: &str, input: &str) -> (&'static s
     let factor = |value: f64, unit: &str| match unit {
         "" => format!("({value:?})"),
         unit => format!("({value:?} {unit})"),
-    };
-    let clamped = |inner: String, limits: Option<[f64; 2]>, unit: &str| match limits {
-        Some([low, high]) => format!("clamp({inner}, {low:?} {unit}, {high:?} {unit})"),
-        None => inner,
     };
     let signal = clamped(input.to_owned(), actuator.control, unit);
     let mut sum = match (gain == 1.0, of_gain) {

@@ -15,6 +15,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("modulus", "\"115 GPa\""),
     ("young", "\"210 GPa\""),
     ("hardness", "\"3.5 GPa\""),
+    ("journal_hardness", "\"7 GPa\""),
     ("threshold", "\"80 um\""),
     ("coefficient", "1e-8"),
     ("restitution", "0.9"),
@@ -38,7 +39,7 @@ fn key(what: &str) -> &str {
 
 /// Whether a hardness is filled in.
 pub(super) fn is_hardness(what: &str) -> bool {
-    key(what) == "hardness"
+    matches!(key(what), "hardness" | "journal_hardness")
 }
 
 fn example(what: &str, expected: Dimension) -> String {

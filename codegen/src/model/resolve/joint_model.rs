@@ -4,7 +4,7 @@ use super::inertia;
 use super::lookup::enumerated;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, Severity};
 use crate::model::{Axis, AxisKeys, JOINT_KINDS, JointKind, JointModel, PlaceKey};
 use crate::spec::{At, ByCoordinate, Dimension, JointSpec, Name, PerBody, Triple};
 
@@ -232,7 +232,15 @@ impl Resolver<'_> {
             let default = inertia::any_perpendicular(normal.parent);
             return Axis::both(default);
         };
+        let errors = |resolver: &Self| {
+            resolver.diagnostics.iter().filter(|found| found.severity == Severity::Error).count()
+        };
+        let known = errors(self);
         let first = self.axis(written, &joint.value, &what);
+        // What is wrong already is told there.
+        if errors(self) > known {
+            return Axis::both(inertia::any_perpendicular(normal.parent));
+        }
         let mut in_plane = |direction: [f64; 3], normal: [f64; 3]| {
             let across = inertia::perpendicular_part(direction, normal);
             // As for universal joints.

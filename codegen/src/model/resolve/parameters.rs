@@ -179,7 +179,7 @@ impl Resolver<'_> {
         }
         self.parameters[position].turning = if given == Turning::default() { own } else { given };
         self.parameters[position].written = written(&quantity);
-        self.formula(&quantity, Some(dimension), Allowed::CONSTANTS, &what)
+        self.formula(&quantity, Some(dimension), Allowed::GIVEN, &what)
     }
 
     /// Positions so that every parameter comes after those it uses; cycles are reported and left out.

@@ -2,11 +2,11 @@
 
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
-use crate::diagnostic::Code;
+use crate::diagnostic::{Code, nearest};
 use crate::id::{BodyId, PointId};
 use crate::model::{Body, Carrier, Coupling, Force, Formula, Joint, Point, Position};
 use crate::source::Span;
-use crate::spec::{At, Dimension, File, Name, PerBody, PointSpec, Table, Triple};
+use crate::spec::{At, Dimension, File, Name, POINT_KEYS, PerBody, PointSpec, Table, Triple};
 
 impl Resolver<'_> {
     pub(super) fn resolve_points(&mut self, file: &File) {
@@ -28,6 +28,13 @@ impl Resolver<'_> {
         let what = format!("point `{}`", name.value);
         match (&point.value.at, point.value.by_body.0.first()) {
             (Some(_), Some((key, _))) => {
+                if self.names.find(&key.value).is_none()
+                    && let Some(meant) = nearest(&key.value, POINT_KEYS.iter().copied())
+                {
+                    let message = format!("the key `{}` means nothing here", key.value);
+                    self.refuse(Code::UnknownKey, key.span, message).help(format!("did you mean `{meant}`?"));
+                    return nowhere;
+                }
                 let message = format!("{what} has `at`, and a position for `{}` beside it", key.value);
                 self.refuse(Code::ConflictingKeys, key.span, message)
                     .help("positions by body go into `at`: `at = { crank = [...], rocker = [...] }`");

@@ -20,6 +20,8 @@ pub(super) struct Allowed {
     pub(super) tunable: bool,
     pub(super) time: bool,
     pub(super) state: bool,
+    /// Whether a pressure may be written as a hardness, whatever place it fills.
+    pub(super) hardness: bool,
     /// Names that mean something here alone, with their dimensions.
     pub(super) arguments: &'static [(&'static str, Dimension)],
 }
@@ -34,7 +36,10 @@ const CONTACT: &[(&str, Dimension)] =
 
 impl Allowed {
     /// Parameters fixed at generation.
-    pub(super) const CONSTANTS: Self = Self { tunable: false, time: false, state: false, arguments: &[] };
+    pub(super) const CONSTANTS: Self =
+        Self { tunable: false, time: false, state: false, hardness: false, arguments: &[] };
+    /// The value of a parameter that is given in place of the file's: only its use tells what it is.
+    pub(super) const GIVEN: Self = Self { hardness: true, ..Self::CONSTANTS };
     /// All parameters.
     pub(super) const PARAMETERS: Self = Self { tunable: true, ..Self::CONSTANTS };
     /// Parameters, inputs and t.
@@ -171,12 +176,12 @@ impl Resolver<'_> {
         expected: Option<Dimension>,
     ) -> Option<()> {
         let is_pressure = expected == Some(Dimension::of(-1, 1, -2));
-        let Some(range) = expression.hardness().filter(|_| is_pressure && !advice::is_hardness(origin.what))
-        else {
+        let may_be = origin.allowed.hardness || advice::is_hardness(origin.what);
+        let Some(range) = expression.hardness().filter(|_| is_pressure && !may_be) else {
             return Some(());
         };
         let help = advice::like(origin.what, expected?);
-        let message = format!("{} is a pressure, but no hardness", origin.what);
+        let message = format!("{} is a hardness, but a plain pressure is needed", origin.what);
         self.refuse(Code::UnitMismatch, self.span_in(origin.quantity, range.clone()), message).help(help);
         None
     }
@@ -189,7 +194,8 @@ impl Resolver<'_> {
         expected: Dimension,
     ) {
         let span = origin.quantity.span;
-        if let Some(number) = bare.filter(|_| expected != Dimension::NONE) {
+        // Infinity and what is no number need no unit but another value.
+        if let Some(number) = bare.filter(|number| expected != Dimension::NONE && number.is_finite()) {
             let message = format!("{} needs a unit: it is {}", origin.what, expected.description());
             let help = advice::missing_unit(origin.what, number, expected);
             self.refuse(Code::MissingUnit, span, message).help(help);

@@ -49,11 +49,34 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Token>, SyntaxError> {
             Kind::Relation(relation)
         } else {
             let message = format!("`{next}` has no meaning in a formula");
-            return Err(fault(message, start..start + next.len_utf8()));
+            return Err(fault(message, start..start + next.len_utf8()).advise(in_place_of(next)));
         };
         tokens.push(Token { kind, range: start..at });
     }
     Ok(tokens)
+}
+
+/// What to write for a character that no formula has.
+fn in_place_of(character: char) -> &'static str {
+    match character {
+        '=' | '!' => "two sides are compared by `<`, `<=`, `>` or `>=`, as in `if(t < 1 s, 0, 1)`",
+        '&' | '|' | '?' | ':' => {
+            "cases are told apart by `if(a < b, then, else)`, one in another where there are more"
+        }
+        '#' => "a comment stands behind the closing quote, or on a line of its own",
+        '"' | '\'' | '`' => "names and units stand in a formula as they are, without quotes of their own",
+        '[' | ']' | '{' | '}' => "brackets in a formula are round, `(` and `)`",
+        '×' | '·' | '∙' | '⋅' => "a product is written with `*`",
+        '÷' => "a quotient is written with `/`",
+        '−' | '–' | '—' => "write the minus of the keyboard, `-`",
+        '°' => "an angle in degrees is written `30 deg`",
+        '²' | '³' => "powers are written with `^`, as in `x^2`",
+        '√' => "a root is written `sqrt(x)`",
+        ';' => "arguments are separated by commas, and a number has a point: `max(1.5, 2)`",
+        _ => {
+            "a formula has numbers with units, names, functions, `+ - * / ^`, round brackets and comparisons"
+        }
+    }
 }
 
 /// The comparison that a text begins with.
