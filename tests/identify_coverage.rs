@@ -61,7 +61,7 @@ fn frees(case: &Case) -> Vec<Free> {
 fn cases(case: &Case) -> Cases {
     let points = Points::sobol(axes(case), 1, 1).expect("points");
     let source = read_source(Path::new(case.file)).expect("the file");
-    Cases::new(&source, &Options::default(), Backend::Auto, &points).expect("a mechanism")
+    Cases::new(&source, &Options::default(), Backend::Auto, ("--free", &points)).expect("a mechanism")
 }
 
 fn curve(case: &Case) -> Option<Curve> {

@@ -32,8 +32,12 @@ pub fn run(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let points = Points::sobol(arguments.free.clone(), 1, arguments.seed.into());
     let points = points.map_err(|error| Failure::usage(format!("--free: {error}"), RANGE))?;
     let choice = arguments.equations;
-    let cases =
-        Cases::new(&read_source(file)?, &options(&arguments.input, choice.rigid), choice.backend, &points)?;
+    let cases = Cases::new(
+        &read_source(file)?,
+        &options(&arguments.input, choice.rigid),
+        choice.backend,
+        ("--free", &points),
+    )?;
     let base = cases.base();
     print_remarks(base);
     let integrator = method.unwrap_or_else(|| Integrator::adaptive(&base.description, arguments.tol));

@@ -97,7 +97,7 @@ pub fn asked<T>(
     integrator(&arguments.motion)?;
     let points = points(arguments)?;
     let options = options(&arguments.input, arguments.equations.rigid);
-    let cases = Cases::new(source, &options, arguments.equations.backend, &points)?;
+    let cases = Cases::new(source, &options, arguments.equations.backend, ("--vary", &points))?;
     let mechanism = cases.base();
     let of = of(&arguments.of, &cases.quantities(&points))?;
     let simulation = Simulation::new(&arguments.input.file, &arguments.motion, mechanism)?;

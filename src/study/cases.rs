@@ -35,7 +35,7 @@ pub struct Cases {
 pub(crate) type Last = Option<(Given, Mechanism)>;
 
 impl Cases {
-    /// Of a file with options, at the values of these points.
+    /// Of a file with options, at the values of these points, which `option` of the command line gave.
     ///
     /// # Errors
     /// A wrong file; parameters that it does not have, values of another dimension or without a unit.
@@ -43,7 +43,7 @@ impl Cases {
         source: &SourceFile,
         options: &Options,
         backend: Backend,
-        points: &Points,
+        (option, points): (&str, &Points),
     ) -> Result<Self, LoadError> {
         let first = || {
             let mut options = options.clone();
@@ -56,7 +56,8 @@ impl Cases {
         for axis in points.axes() {
             for value in axis.ends() {
                 let value = [(axis.name.clone(), value)];
-                unreadable(resolved(&spec, options, &value), source).map_err(LoadError::Mechanism)?;
+                unreadable(resolved(&spec, options, &value), (option, source))
+                    .map_err(LoadError::Mechanism)?;
             }
         }
         let base =
@@ -154,12 +155,15 @@ fn resolved(
 }
 
 /// Faults of what is written, which every point would have; those of a value are for its own point to tell.
-fn unreadable<T>(found: Result<T, Diagnostics>, source: &SourceFile) -> Result<(), Diagnostics> {
+fn unreadable<T>(
+    found: Result<T, Diagnostics>,
+    (option, source): (&str, &SourceFile),
+) -> Result<(), Diagnostics> {
     use Code::{FormulaSyntax, MissingUnit, NotAllowedHere, UnitMismatch, UnknownOverride, UnknownUnit};
     let Err(diagnostics) = found else { return Ok(()) };
     let of_text = [FormulaSyntax, MissingUnit, NotAllowedHere, UnitMismatch, UnknownOverride, UnknownUnit];
     let found = diagnostics.list().iter().filter(|one| of_text.contains(&one.code)).cloned();
-    let varied = |text: &mut String| *text = text.replace("--set ", "--vary ");
+    let varied = |text: &mut String| *text = text.replace("--set ", &format!("{option} "));
     let faults: Vec<_> = found
         .map(|mut one| {
             varied(&mut one.message);

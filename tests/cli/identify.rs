@@ -76,6 +76,7 @@ fn wrong_questions_are_answered_with_what_to_write() {
         (curve("good.csv", good), "c_rocker=0.5..0.005 N m s/rad", "C0001", "NAME=LO..HI"),
         (curve("good.csv", good), "c_rocker=0.005,0.5", "C0001", "NAME=LO..HI"),
         (curve("good.csv", good), "b=290 mm..310 kg", "C0001", "NAME=LO..HI"),
+        (curve("good.csv", good), "speed=1 rad/s..8 rad/s", "E0303", "a turn is 2*pi rad"),
         (
             curve("angle.csv", "t [s],R1.q [rad]\n0,0\n0.1,1.3\n0.2,2.5\n"),
             DAMPER,
@@ -89,6 +90,8 @@ fn wrong_questions_are_answered_with_what_to_write() {
         let error = &answer.errors()[0];
         assert_eq!(error["code"], code, "{file} {free}: {error}");
         assert!(error["help"].as_str().is_some_and(|text| text.contains(help)), "{file} {free}: {error}");
+        // The option that was given, and no other.
+        assert!(!error.to_string().contains("--vary"), "{file} {free}: {error}");
     }
     let file = folder.path("good.csv");
     for (words, code) in [
