@@ -2,10 +2,11 @@
 
 use super::*;
 use crate::data::{Gauge, Observations, Reading as Datum};
+use crate::error::LifeError;
 use crate::fit::{Model, estimate};
 use crate::fit_file::FitFile;
-use crate::inspection::Reading;
-use crate::process::{PROCESSES, Process, Wiener};
+use crate::inspection::{InspectionError, Reading};
+use crate::process::{Gamma, PROCESSES, Process, Wiener};
 use crate::random::Stream;
 
 /// Wear over the power 0.7 of exposure, which is counted in units of 1 / `unit`, in two environments.
@@ -63,13 +64,21 @@ fn told(process: &'static dyn Process, (units, covariates): (usize, usize), unit
     let log = log.map(|(time, wear)| Reading { time: time * unit, wear }).to_vec();
     let exact = History::exact(process, log.clone()).expect("rising");
     for prior in [Prior::Fit(fit.clone()), Prior::Flat { process, power_law: true }] {
-        add(Prediction::after(&exact, &prior, &state, &questions).expect("explained"));
+        // Of few readings and an exponent that may be near zero the later lives have no number, in any unit.
+        match Prediction::after(&exact, &prior, &state, &questions) {
+            Err(InspectionError::Life(LifeError::Endless { .. })) => {}
+            told => add(told.expect("explained")),
+        }
     }
-    let effort = Effort { count: 4000, seed: 1 };
-    let noisy = History::noisy(log).expect("numbers");
-    add(Prediction::after_gauge(&noisy, &fit, &state, 0.5, effort, &questions).expect("explained"));
+    // Particles take seconds: of one process.
+    if process.name() == Gamma.name() {
+        let effort = Effort { count: 4000, seed: 1 };
+        let noisy = History::noisy(log).expect("numbers");
+        add(Prediction::after_gauge(&noisy, &fit, &state, 0.5, effort, &questions).expect("explained"));
+    }
     let lives = Prediction::possible_lives(&fit, &state, 40).expect("laws");
     times.extend(lives.as_slice().iter().map(Lifetime::typical));
+    // With one answer left out, in one unit alone, there would be fewer.
     times.iter().map(|time| time / unit).collect()
 }
 
@@ -81,7 +90,9 @@ fn predictions_by_a_power_law_are_the_same_in_every_unit_of_exposure() {
     for (process, data) in cases {
         let plain = told(process, data, 1.0);
         for unit in [1e-6, 1e9] {
-            for (at, (a, b)) in plain.iter().zip(told(process, data, unit)).enumerate() {
+            let other = told(process, data, unit);
+            assert_eq!(plain.len(), other.len());
+            for (at, (a, b)) in plain.iter().zip(other).enumerate() {
                 // The maximum is found to 1e-10, and what is drawn around it goes with it.
                 assert!((b / a - 1.0).abs() < 1e-6, "{process:?} {data:?} {unit} {at}: {a} {b}");
             }

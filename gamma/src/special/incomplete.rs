@@ -56,6 +56,9 @@ pub(super) fn ln_both(shape: f64, x: f64, ln_x: f64) -> (f64, f64) {
     if ln_x == f64::NEG_INFINITY {
         return (f64::NEG_INFINITY, 0.0);
     }
+    if shape == f64::INFINITY {
+        return if x < shape { (f64::NEG_INFINITY, 0.0) } else { (f64::NAN, f64::NAN) };
+    }
     if x == f64::INFINITY {
         return (0.0, f64::NEG_INFINITY);
     }
@@ -208,7 +211,8 @@ fn excess(t: f64, ln_1p: f64) -> f64 {
     loop {
         let term = power / odd;
         sum += term;
-        if term.abs() <= NEGLIGIBLE * sum.abs() || term == 0.0 {
+        // What is not a number ends too.
+        if !(term.abs() > NEGLIGIBLE * sum.abs()) {
             return s * t - 2.0 * sum;
         }
         power *= square;

@@ -205,3 +205,11 @@ fn large_shapes_have_all_digits_by_the_uniform_expansion() {
         }
     }
 }
+
+#[test]
+fn shapes_beyond_all_numbers_end_every_search() {
+    // The expansion for large shapes looked for the last place of what is no number.
+    assert_eq!((gamma_p(f64::INFINITY, 3.0), gamma_q(f64::INFINITY, 3.0)), (0.0, 1.0));
+    assert!(gamma_p(f64::INFINITY, f64::INFINITY).is_nan());
+    assert_eq!(gamma_p(f64::MAX, 3.0), 0.0);
+}
