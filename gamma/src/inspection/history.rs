@@ -33,7 +33,7 @@ impl History {
         if !process.is_increasing() {
             return Ok(history);
         }
-        for (at, pair) in history.from_the_start().windows(2).enumerate() {
+        for (at, pair) in history.since_new().windows(2).enumerate() {
             let row = at + if from_new { 1 } else { 2 };
             let (wear, before) = (pair[1].wear, pair[0].wear);
             if wear < before {
@@ -79,7 +79,7 @@ impl History {
     }
 
     /// The readings, after the new joint where it goes before them.
-    fn from_the_start(&self) -> Vec<Reading> {
+    fn since_new(&self) -> Vec<Reading> {
         let new = self.from_new.then_some(Reading { time: 0.0, wear: 0.0 });
         new.into_iter().chain(self.readings.iter().copied()).collect()
     }
@@ -90,7 +90,7 @@ impl History {
             let [from, to] = [pair[0].time, pair[1].time].map(|time| rate * time);
             [from, to, pair[1].wear - pair[0].wear]
         };
-        self.from_the_start().windows(2).map(between).collect()
+        self.since_new().windows(2).map(between).collect()
     }
 
     /// The last reading.

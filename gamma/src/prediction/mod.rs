@@ -1,8 +1,6 @@
 //! A prediction: everything that is told about the remaining life of one joint. In: an estimate, the joint's state, perhaps
 //! readings. Out: numbers with their bands and error budget. Never knows files or terminals.
 
-#[cfg(test)]
-mod exposure_unit_tests;
 mod interval;
 mod machine;
 mod questions;

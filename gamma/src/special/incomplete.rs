@@ -212,7 +212,7 @@ fn excess(t: f64, ln_1p: f64) -> f64 {
         let term = power / odd;
         sum += term;
         // What is not a number ends too.
-        if !(term.abs() > NEGLIGIBLE * sum.abs()) {
+        if term.is_nan() || term.abs() <= NEGLIGIBLE * sum.abs() {
             return s * t - 2.0 * sum;
         }
         power *= square;

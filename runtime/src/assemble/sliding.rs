@@ -35,7 +35,7 @@ pub(super) fn settle(
         let before = left;
         (offsets, left) = next(evaluator, t, (&moved, ideal), placeable);
         // What is not a number is no nearer either.
-        if !(left < before) {
+        if left.is_nan() || left >= before {
             return;
         }
         *state = moved;
