@@ -15,9 +15,9 @@ pub fn number(value: f64) -> String {
 }
 
 /// A number with so many decimals, for columns; with an exponent from 1e9 on, and where decimals would leave it less than
-/// three significant digits.
+/// two significant digits.
 pub fn decimals(value: f64, digits: usize) -> String {
-    let (size, least) = (value.abs(), 10_f64.powi(2 - i32::try_from(digits).unwrap_or(0)));
+    let (size, least) = (value.abs(), 10_f64.powi(1 - i32::try_from(digits).unwrap_or(0)));
     let is_plain = value == 0.0 || (least.min(1.0)..1e9).contains(&size);
     if is_plain { format!("{value:.digits$}") } else { format!("{value:.digits$e}") }
 }
@@ -34,9 +34,9 @@ mod tests {
 
     #[test]
     fn decimals_of_tiny_numbers_have_an_exponent() {
-        let shown = [0.0, 1.766e-8, -9.9e-5, 1e-4, 0.25, f64::NAN].map(|value| decimals(value, 6));
-        assert_eq!(shown, ["0.000000", "1.766000e-8", "-9.900000e-5", "0.000100", "0.250000", "NaN"]);
-        assert_eq!([0.099, 0.1].map(|value| decimals(value, 3)), ["9.900e-2", "0.100"]);
+        let shown = [0.0, 1.766e-8, -9.9e-6, 1e-5, 0.25, f64::NAN].map(|value| decimals(value, 6));
+        assert_eq!(shown, ["0.000000", "1.766000e-8", "-9.900000e-6", "0.000010", "0.250000", "NaN"]);
+        assert_eq!([0.0099, 0.01].map(|value| decimals(value, 3)), ["9.900e-3", "0.010"]);
     }
 
     #[test]
