@@ -29,10 +29,8 @@ pub fn read_inputs(table: &CsvTable<'_>, description: &Description) -> Result<Sa
                     let help = format!("a unit of the same kind as {example} is needed");
                     fault(format!("column `{title}`: `{unit}` is no unit of `{name}`"), help)
                 })?;
-            if given.turning.differs_from(own.turning) {
-                let (counts, needed) = (given.turning.counted(), own.turning.counted());
-                let message = format!("column `{title}` counts {counts}, but `{name}` counts {needed}");
-                let help = format!("a turn is 2*pi rad; the file gives `{name}` in {example}");
+            let column = format!("column `{title}`");
+            if let Some([message, help]) = own.turning.told_apart(given.turning, &column, (name, example)) {
                 return Err(fault(message, help));
             }
             let values = table.numbers_at(place)?;

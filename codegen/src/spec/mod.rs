@@ -43,6 +43,7 @@ pub use compose::{Composed, composed};
 pub use controller::{ControllerSpec, ControllerStateSpec};
 pub use coupling::{COMPLIANCE_KEYS, COUPLING_KINDS, CouplingKind, CouplingSpec, Hand, NamedBodies};
 pub use dimension::Dimension;
+pub(crate) use failure::unknown_key;
 pub use file::{
     CellValues, CheckSpec, ClearanceSpec, Closure, Ends, File, Input, InputTable, Parameter, ParameterTable,
     RepeatSpec, WearSpec,

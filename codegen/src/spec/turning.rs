@@ -50,6 +50,16 @@ impl Turning {
         if self.turns > 0 { "turns" } else { "radians" }
     }
 
+    /// What to say of `what`, which counts `given`, for the quantity of this name and unit that counts this; and the cure. Nothing where
+    /// they agree.
+    pub fn told_apart(self, given: Self, what: &str, (name, unit): (&str, &str)) -> Option<[String; 2]> {
+        self.differs_from(given).then(|| {
+            let (counts, own) = (given.counted(), self.counted());
+            let message = format!("{what} counts {counts}, but `{name}` counts {own}");
+            [message, format!("a turn is 2*pi rad; the file gives `{name}` in {unit}")]
+        })
+    }
+
     /// What one of it is in terms of `other`: 2 pi for turns where radians are counted.
     pub fn in_terms_of(self, other: Self) -> f64 {
         let power = if self.is_turns_beside(other) {

@@ -84,7 +84,8 @@ impl History {
         new.into_iter().chain(self.readings.iter().copied()).collect()
     }
 
-    /// From the new joint, if it goes before, and from each reading to the next: exposure before and after at `rate` units of it per unit of time, wear between.
+    /// From the new joint, if it goes before, and from each reading to the next: exposure before and after at `rate` units of it per
+    /// unit of time, wear between.
     pub(super) fn increments(&self, rate: f64) -> Vec<[f64; 3]> {
         let between = |pair: &[Reading]| {
             let [from, to] = [pair[0].time, pair[1].time].map(|time| rate * time);

@@ -56,23 +56,12 @@ impl FirstPassage {
 
     /// Reliability if exposure runs `factor` times as fast.
     pub fn reliability_at(&self, t: f64, factor: f64) -> f64 {
-        let exposure = factor * self.exposure(t);
-        if exposure == f64::INFINITY {
-            1.0 - self.law.ever(self.left)
-        } else {
-            self.law.survival(exposure, self.left)
-        }
+        self.law.survival(factor * self.exposure(t), self.left)
     }
 
     /// Probability of failure until `t` if exposure runs `factor` times as fast.
     pub fn failed_at(&self, t: f64, factor: f64) -> f64 {
-        let exposure = factor * self.exposure(t);
-        // Powers of long times are beyond all numbers.
-        if exposure == f64::INFINITY {
-            self.law.ever(self.left)
-        } else {
-            self.law.failure(exposure, self.left)
-        }
+        self.law.failure(factor * self.exposure(t), self.left)
     }
 
     /// Hazard if exposure runs `factor` times as fast.

@@ -66,13 +66,19 @@ impl Law {
 
     /// Probability that wear ever reaches `left`.
     pub(crate) fn ever(&self, left: f64) -> f64 {
-        if self.has_moments() { 1.0 } else { self.failure(FOREVER * self.mean_exposure(left), left) }
+        if self.has_moments() {
+            1.0
+        } else {
+            self.failure((FOREVER * self.mean_exposure(left)).min(f64::MAX), left)
+        }
     }
 
     /// Probability that wear stays below `left` throughout an exposure.
     pub(crate) fn survival(&self, exposure: f64, left: f64) -> f64 {
         match self.effect() {
             _ if exposure <= 0.0 => 1.0,
+            // Powers of long times are beyond all numbers.
+            _ if exposure == f64::INFINITY => 1.0 - self.ever(left),
             Some(effect) => effect.survival(self.logs, self.cv, exposure, left).0,
             None => self.process.survival(self.logs, exposure, left),
         }
@@ -82,6 +88,7 @@ impl Law {
     pub(crate) fn failure(&self, exposure: f64, left: f64) -> f64 {
         match self.effect() {
             _ if exposure <= 0.0 => 0.0,
+            _ if exposure == f64::INFINITY => self.ever(left),
             Some(effect) => effect.survival(self.logs, self.cv, exposure, left).1,
             None => self.process.failure(self.logs, exposure, left),
         }

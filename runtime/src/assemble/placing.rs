@@ -47,6 +47,20 @@ pub(crate) fn place_moving(
     true
 }
 
+/// Where a journal rests [m] along a unit vector, pressed into its bearing by this force [N].
+pub(super) fn pressed_along(
+    evaluator: &Evaluator<'_>,
+    index: usize,
+    direction: [f64; 3],
+    force: f64,
+) -> [f64; 3] {
+    let clearances = evaluator.clearances();
+    let clearance = clearances.contacts()[index].clearance;
+    let penetration = clearances.joints()[index].resting_penetration(clearance, force);
+    let distance = clearances.distance(index, direction, penetration);
+    direction.map(|component| component * distance)
+}
+
 /// Rates [m/s] of offsets [m] that turn so fast [rad/s].
 pub(super) fn carried(turns: &[[f64; 3]], targets: &Targets) -> Vec<[f64; 3]> {
     turns.iter().zip(targets).map(|(turn, target)| cross(*turn, target.unwrap_or_default())).collect()

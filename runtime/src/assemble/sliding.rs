@@ -4,7 +4,7 @@
 //! Friction pulls a journal up the side of its bearing until force and load are in line again: by the angle of friction, atan mu. Started
 //! below that place it would swing about it, and nothing damps that: friction of a journal that slides fast takes no energy from a swing.
 
-use super::placing::{carried, place_moving};
+use super::placing::{carried, place_moving, pressed_along};
 use super::reactions::ideal_reactions;
 use super::state::State;
 use crate::evaluate::Evaluator;
@@ -79,11 +79,8 @@ fn next(
             left = left.max(angle(force, load));
         }
         let direction = turned(normal, force, load);
-        let clearances = evaluator.clearances();
         let pressed = -dot(normal, force) * of_load;
-        let penetration = clearances.joints()[index].resting_penetration(touch.clearance, pressed);
-        let distance = clearances.distance(index, direction, penetration);
-        offsets[index] = Some(direction.map(|component| component * distance));
+        offsets[index] = Some(pressed_along(evaluator, index, direction, pressed));
     }
     (offsets, left)
 }

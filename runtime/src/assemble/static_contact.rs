@@ -13,7 +13,7 @@
 use super::consistent::assemble_with;
 use super::held::frozen_speeds;
 use super::offset::offset_columns;
-use super::placing::{carried, place, place_moving};
+use super::placing::{carried, place, place_moving, pressed_along};
 use super::reactions::{ideal_reactions, turning};
 use super::sliding;
 use super::state::State;
@@ -143,15 +143,10 @@ fn free_contacts(evaluator: &Evaluator<'_>, columns: &[[Vec<f64>; 3]]) -> Vec<bo
 
 /// Where a journal rests under an ideal reaction [N] on it.
 fn resting_offset(evaluator: &Evaluator<'_>, index: usize, force: [f64; 3]) -> [f64; 3] {
-    let clearances = evaluator.clearances();
     let [x, y, z] = force;
     let size = (x * x + y * y + z * z).sqrt();
     if size.is_nan() || size <= 0.0 {
         return [0.0; 3];
     }
-    let clearance = clearances.contacts()[index].clearance;
-    let normal = force.map(|component| -component / size);
-    let penetration = clearances.joints()[index].resting_penetration(clearance, size);
-    let distance = clearances.distance(index, normal, penetration);
-    normal.map(|component| component * distance)
+    pressed_along(evaluator, index, force.map(|component| -component / size), size)
 }

@@ -58,16 +58,14 @@ impl<'a> Wearing<'a> {
         turns: &[TurnMeasures],
     ) -> impl Iterator<Item = Steadiness> {
         self.joints.iter().map(move |(at, _)| {
-            let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
-            Steadiness::of_alike(before.map(|turn| self.wear(*at, turn)), &wears)
+            Steadiness::of_alike(before.map(|turn| self.wear(*at, turn)), &self.wears(*at, turns))
         })
     }
 
     /// Whether the mean of turns is known to this part of itself, as if they had nothing to do with one another.
     pub fn is_known_to(&self, part: f64, turns: &[TurnMeasures]) -> bool {
         self.joints.iter().all(|(at, _)| {
-            let wears: Vec<f64> = turns.iter().map(|turn| self.wear(*at, turn)).collect();
-            Steadiness::of(None, &wears).scatter.is_some_and(|scatter| scatter <= part)
+            Steadiness::of(None, &self.wears(*at, turns)).scatter.is_some_and(|scatter| scatter <= part)
         })
     }
 
@@ -77,6 +75,11 @@ impl<'a> Wearing<'a> {
             ContactMeasure::mean(&turns.iter().map(|turn| &turn.joints[*at]).collect::<Vec<_>>())
         };
         self.joints.iter().map(of).collect()
+    }
+
+    /// W [m] of every turn of a wearing joint.
+    fn wears(&self, at: usize, turns: &[TurnMeasures]) -> Vec<f64> {
+        turns.iter().map(|turn| self.wear(at, turn)).collect()
     }
 
     /// W per turn [m] of a wearing joint.

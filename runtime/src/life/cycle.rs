@@ -100,14 +100,14 @@ fn advance<F: WearSource>(
     let cycles = Cycles::of(settings, &base, &path, draw, (state.trajectory, state.cycle))?;
     // From here on nothing fails: the state changes as a whole.
     let begin = (0.0, measured);
-    let mut half_angles = vec![0.0; base.len()];
     let seen = if path.seen.is_empty() { slice::from_ref(&begin) } else { &path.seen };
+    // What was measured beyond the end counts for nothing.
+    let within = seen.iter().take_while(|(time, _)| (*time as usize) < cycles.ends.len()).count();
+    let seen = &seen[..within];
     for (time, measured) in seen {
-        // What was measured beyond the end warns of nothing.
-        let Some((gains, _)) = cycles.ends.get(*time as usize) else { break };
+        let (gains, _) = &cycles.ends[*time as usize];
         for (joint, wear) in measured.iter().enumerate() {
             let Some(mut seen) = wear.observed else { continue };
-            half_angles[joint] = f64::max(half_angles[joint], seen.half_angle);
             seen.depth_per_cycle = gains[joint];
             let warnings = settings.joints[joint].limits.warnings(&seen);
             warnings.for_each(|warning| state.warn(joint, warning, *time as u64));
@@ -131,8 +131,10 @@ fn advance<F: WearSource>(
     for (joint, error) in state.joints.iter_mut().zip(&path.error) {
         joint.error += error;
     }
-    for (joint, seen) in state.joints.iter_mut().zip(half_angles) {
-        joint.half_angle = if seen > 0.0 { seen } else { joint.half_angle };
+    for (at, joint) in state.joints.iter_mut().enumerate() {
+        let half_angles = seen.iter().filter_map(|(_, measured)| Some(measured[at].observed?.half_angle));
+        let widest = half_angles.fold(0.0, f64::max);
+        joint.half_angle = if widest > 0.0 { widest } else { joint.half_angle };
     }
     (state.fine, state.control, state.measurements) = (fine_state, control, measurements);
     state.earlier = earlier;

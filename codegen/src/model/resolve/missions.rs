@@ -271,7 +271,7 @@ impl Resolver<'_> {
         let dimension = self.parameters[id.index()].dimension;
         let what = format!("`{}` in segment `{}`", name.value, segment.value);
         let formula = self.formula(value, Some(dimension), Allowed::CONSTANTS, &what);
-        if let Some((message, help)) = self.other_turning(id.index(), self.turns_of(value).of, &what) {
+        if let Some([message, help]) = self.other_turning(id.index(), self.turns_of(value).of, &what) {
             self.refuse(Code::UnitMismatch, value.span, message).help(help);
             return None;
         }

@@ -148,7 +148,7 @@ impl Resolver<'_> {
         let unit = self.parameters[position].written.as_ref().map(|(_, unit)| unit.clone());
         let unit = unit.filter(|unit| !unit.is_empty()).unwrap_or_else(|| dimension.si_unit());
         let (own, given) = (self.parameters[position].turning, self.turns_of(&quantity).of);
-        if let Some((message, help)) = self.other_turning(position, given, &what) {
+        if let Some([message, help]) = self.other_turning(position, given, &what) {
             self.refuse(Code::UnitMismatch, span, message).help(help);
             return model::Formula::number(f64::NAN, dimension);
         }

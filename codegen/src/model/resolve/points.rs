@@ -6,7 +6,7 @@ use crate::diagnostic::{Code, nearest};
 use crate::id::{BodyId, PointId};
 use crate::model::{Body, Carrier, Coupling, Force, Formula, Joint, Point, Position};
 use crate::source::Span;
-use crate::spec::{At, Dimension, File, Name, POINT_KEYS, PerBody, PointSpec, Table, Triple};
+use crate::spec::{At, Dimension, File, Name, POINT_KEYS, PerBody, PointSpec, Table, Triple, unknown_key};
 
 impl Resolver<'_> {
     pub(super) fn resolve_points(&mut self, file: &File) {
@@ -31,7 +31,7 @@ impl Resolver<'_> {
                 if self.names.find(&key.value).is_none()
                     && let Some(meant) = nearest(&key.value, POINT_KEYS.iter().copied())
                 {
-                    let message = format!("the key `{}` means nothing here", key.value);
+                    let message = unknown_key(&key.value);
                     self.refuse(Code::UnknownKey, key.span, message).help(format!("did you mean `{meant}`?"));
                     return nowhere;
                 }

@@ -97,7 +97,7 @@ impl Resolver<'_> {
                 let needed = parameter.dimension.description();
                 return Err(format!("column `{title}`: `{name}` is {needed}"));
             }
-            if let Some((message, help)) = self.other_turning(id, turning, &format!("column `{title}`")) {
+            if let Some([message, help]) = self.other_turning(id, turning, &format!("column `{title}`")) {
                 return Err(format!("{message}: {help}"));
             }
             if places.iter().any(|(known, ..)| *known == id) {

@@ -224,20 +224,11 @@ impl Resolver<'_> {
     }
 
     /// What to say of a value that counts turns for a parameter in radians, or the other way round; and the cure.
-    pub(super) fn other_turning(
-        &self,
-        parameter: usize,
-        given: Turning,
-        what: &str,
-    ) -> Option<(String, String)> {
+    pub(super) fn other_turning(&self, parameter: usize, given: Turning, what: &str) -> Option<[String; 2]> {
         let own = &self.parameters[parameter];
         let unit = own.written.as_ref().map(|(_, unit)| unit.clone()).filter(|unit| !unit.is_empty());
         let unit = unit.unwrap_or_else(|| own.dimension.unit_counting(own.turning));
-        own.turning.differs_from(given).then(|| {
-            let (counts, own_counts) = (given.counted(), own.turning.counted());
-            let message = format!("{what} counts {counts}, but `{}` counts {own_counts}", own.name);
-            (message, format!("a turn is 2*pi rad; the file gives `{}` in {unit}", own.name))
-        })
+        own.turning.told_apart(given, what, (&own.name, &unit))
     }
 
     fn warn_turns(&mut self, quantity: &Quantity, range: Range<usize>, what: &str) {
