@@ -111,7 +111,7 @@ pub use text::Text;
 pub use {
     assemble::{
         State, assemble, assemble_static_contact, assemble_with, check_clearances, close_loops, motion_sizes,
-        offset_columns, place, resting_contacts,
+        offset_columns, place, resting_contacts, rows_of_free_offsets,
     },
     bundle::{Bundle, Evaluate, StepPlan},
     clearance_joint::channels,

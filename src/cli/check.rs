@@ -13,7 +13,7 @@ use crate::number::number;
 use crate::provenance::Provenance;
 use crate::wear_measure::{paragraph, wear_measures};
 use linkwear_codegen::model::{Body, Flexible, Joint, Parameter};
-use linkwear_codegen::preflight::{Analysis, Assemblies, Coordinate, Redundant};
+use linkwear_codegen::preflight::{Analysis, Assemblies, Coordinate, Redundant, as_guesses};
 use linkwear_codegen::{Compiled, Options};
 use serde_json::{Map, Value, json};
 
@@ -170,7 +170,7 @@ fn text(Found { compiled, assemblies, start, contacts }: &Found<'_>) -> String {
     if !assemblies.others.is_empty() {
         let others = assemblies.others.iter().map(|other| ("or", other));
         let rows = [("taken", &assemblies.taken)].into_iter().chain(others);
-        let rows = rows.map(|(word, way)| vec![word.to_owned(), guesses(way)]).collect();
+        let rows = rows.map(|(word, way)| vec![word.to_owned(), as_guesses(way)]).collect();
         let _ = write!(
             text,
             "\nThe loops close in more than one way; [assembly] chooses\n{}",
@@ -200,22 +200,6 @@ fn text(Found { compiled, assemblies, start, contacts }: &Found<'_>) -> String {
         }
     }
     text
-}
-
-/// What `[assembly]` says for a way to close the loops: `R2 = "55.8 deg", C = { q1 = "10 deg", q2 = "0.1 m" }`.
-fn guesses(way: &[Coordinate]) -> String {
-    let value = |at: &Coordinate| match at.angular {
-        true => format!("\"{:.1} deg\"", at.value.to_degrees() + 0.0),
-        false => format!("\"{} m\"", number(at.value)),
-    };
-    let joints = way.chunk_by(|a, b| a.joint == b.joint).map(|joint| match joint {
-        [only] if only.name == "q" => format!("{} = {}", only.joint, value(only)),
-        several => {
-            let pairs: Vec<_> = several.iter().map(|at| format!("{} = {}", at.name, value(at))).collect();
-            format!("{} = {{ {} }}", several[0].joint, pairs.join(", "))
-        }
-    });
-    joints.collect::<Vec<_>>().join(", ")
 }
 
 fn speeds_note(analysis: &Analysis) -> String {

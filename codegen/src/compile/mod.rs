@@ -184,7 +184,8 @@ fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> R
             let of_ideal_turn = [Code::NoFullTurn, Code::PassesSingular, Code::AngleJumps];
             findings.warnings.retain(|warning| !of_ideal_turn.contains(&warning.code));
         }
-        findings.warnings.extend(warnings);
+        let known: Vec<Code> = findings.warnings.iter().map(|warning| warning.code).collect();
+        findings.warnings.extend(warnings.into_iter().filter(|warning| !known.contains(&warning.code)));
     }
     Ok(findings)
 }

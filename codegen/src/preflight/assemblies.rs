@@ -4,11 +4,15 @@
 
 use std::f64::consts::{PI, TAU};
 
-use linkwear_runtime::{Description, Evaluator, Motion, Sizes, System, assemble_with, close_loops};
+use linkwear_runtime::{
+    Description, Evaluator, Motion, Sizes, System, assemble_with, close_loops, rows_of_free_offsets,
+};
 
 use crate::sparse_rows::SparseRows;
 
-use super::samples::random;
+use super::case::Case;
+use super::plausible::with_unit;
+use super::samples::{ClosedPositions, random};
 use super::subspace::rank;
 
 /// Speeds of the largest mechanism that is tried: an attempt to assemble then takes a millisecond.
@@ -34,6 +38,22 @@ pub struct Coordinate {
     pub value: f64,
     /// True for an angle, false for a length.
     pub angular: bool,
+}
+
+/// What `[assembly]` says for a way to close the loops: `R2 = "55.8 deg", C = { q1 = "10 deg", q2 = "0.1 m" }`.
+pub fn as_guesses(way: &[Coordinate]) -> String {
+    let value = |at: &Coordinate| match at.angular {
+        true => format!("\"{:.1} deg\"", at.value.to_degrees() + 0.0),
+        false => format!("\"{}\"", with_unit(at.value, "m")),
+    };
+    let joints = way.chunk_by(|a, b| a.joint == b.joint).map(|joint| match joint {
+        [only] if only.name == "q" => format!("{} = {}", only.joint, value(only)),
+        several => {
+            let pairs: Vec<_> = several.iter().map(|at| format!("{} = {}", at.name, value(at))).collect();
+            format!("{} = {{ {} }}", several[0].joint, pairs.join(", "))
+        }
+    });
+    joints.collect::<Vec<_>>().join(", ")
 }
 
 /// How the loops close at the start.
@@ -78,21 +98,17 @@ impl<'a> Search<'a> {
     fn new(mut evaluator: Evaluator<'a>) -> Option<Self> {
         let state = assemble_with(&mut evaluator, 0.0).ok()?;
         let arm = evaluator.longest_arm(0.0, &state.q, &state.v);
-        let coordinates = &evaluator.description().coordinates;
+        let description = evaluator.description();
+        let coordinates = &description.coordinates;
         let scalars: Vec<(usize, usize)> = evaluator
             .layout()
             .free()
             .filter(|group| matches!(group.motion, Motion::Scalar { .. }))
             .map(|group| (group.coordinate, group.speed))
             .collect();
-        let of_joint = |at: usize| {
-            let name = coordinates[at].name.rsplit('.').next().unwrap_or_default();
-            name.starts_with('q')
-        };
+        let of_joint = |at: usize| is_of_joint(description, at);
         let mut held: Vec<bool> = coordinates.iter().map(|info| info.held).collect();
-        let n = evaluator.sizes().speeds;
-        let jacobian = evaluator.closure(0.0, &state.q, &state.v).jacobian;
-        let loops = SparseRows::from_entries(n, jacobian);
+        let loops = loops(&mut evaluator, &state.q);
         let mut rest = Vec::new();
         let mut hold = |speed: usize| {
             let before = rank(&with_rest(&loops, &rest));
@@ -162,10 +178,7 @@ impl<'a> Search<'a> {
 
     /// Whether the loops hold the mechanism there as at the start: what can drift is no branch of its own.
     fn is_isolated(&mut self, q: &[f64]) -> bool {
-        let n = self.evaluator.sizes().speeds;
-        let jacobian = self.evaluator.closure(0.0, q, &vec![0.0; n]).jacobian;
-        let loops = SparseRows::from_entries(n, jacobian);
-        rank(&with_rest(&loops, &self.rest)) >= self.rank
+        rank(&with_rest(&loops(&mut self.evaluator, q), &self.rest)) >= self.rank
     }
 
     /// Whether assembly goes there from the values that are told.
@@ -192,20 +205,71 @@ impl<'a> Search<'a> {
     }
 
     fn rounded(&self, value: f64, angular: bool) -> f64 {
-        let unit = if angular { TOLD_ANGLE } else { TOLD_LENGTH * self.arm };
-        let value = if angular { value - TAU * (value / TAU).round() } else { value };
-        (value / unit).round() * unit
+        rounded(value, angular, self.arm)
     }
 
     fn told(&self, q: &[f64]) -> Vec<Coordinate> {
-        let coordinate = |(at, angular): &(usize, bool)| {
-            let full = self.evaluator.description().coordinates[*at].name.to_string();
-            let (joint, name) = full.rsplit_once('.').unwrap_or((&full, "q"));
-            let value = self.rounded(q[*at], *angular);
-            Coordinate { joint: joint.to_owned(), name: name.to_owned(), value, angular: *angular }
-        };
-        self.asked.iter().map(coordinate).collect()
+        told(self.evaluator.description(), &self.asked, (q, self.arm))
     }
+}
+
+/// Guesses from which the loops close where drivers and the file hold the start, if those of the file do not lead there: found
+/// from positions that the loops let the mechanism take.
+pub fn guesses_that_close(case: &Case<'_>, positions: &ClosedPositions) -> Option<Vec<Coordinate>> {
+    if !are_looked_for(case.system.sizes()) {
+        return None;
+    }
+    let mut evaluator = Evaluator::new(case.system, case.description, &case.parameters()).ok()?;
+    let mut start = evaluator.start(0.0).0.to_vec();
+    let layout = evaluator.layout().clone();
+    layout.normalize(&mut start);
+    let coordinates = &case.description.coordinates;
+    let held: Vec<bool> = coordinates.iter().map(|info| info.held).collect();
+    let scalars = layout.free().filter(|group| matches!(group.motion, Motion::Scalar { .. }));
+    let asked: Vec<_> = scalars
+        .map(|group| group.coordinate)
+        .filter(|at| !held[*at] && is_of_joint(case.description, *at))
+        .map(|at| (at, coordinates[at].unit == "rad"))
+        .collect();
+    positions.positions.iter().find_map(|position| {
+        let mut guess = start.clone();
+        let free = (0..guess.len()).filter(|at| !held[*at]);
+        free.for_each(|at| guess[at] = position.q[at]);
+        let q = close_loops(&mut evaluator, 0.0, &guess, &held).ok()?;
+        let mut guess = start.clone();
+        asked.iter().for_each(|(at, angular)| guess[*at] = rounded(q[*at], *angular, positions.arm));
+        close_loops(&mut evaluator, 0.0, &guess, &held).ok()?;
+        Some(told(case.description, &asked, (&q, positions.arm)))
+    })
+}
+
+/// Whether a coordinate is one of a joint, no play of it and no mode.
+fn is_of_joint(description: &Description, at: usize) -> bool {
+    description.coordinates[at].name.rsplit('.').next().unwrap_or_default().starts_with('q')
+}
+
+fn rounded(value: f64, angular: bool, arm: f64) -> f64 {
+    let unit = if angular { TOLD_ANGLE } else { TOLD_LENGTH * arm };
+    let value = if angular { value - TAU * (value / TAU).round() } else { value };
+    (value / unit).round() * unit
+}
+
+fn told(description: &Description, asked: &[(usize, bool)], (q, arm): (&[f64], f64)) -> Vec<Coordinate> {
+    let coordinate = |(at, angular): &(usize, bool)| {
+        let full = description.coordinates[*at].name.to_string();
+        let (joint, name) = full.rsplit_once('.').unwrap_or((&full, "q"));
+        let value = rounded(q[*at], *angular, arm);
+        Coordinate { joint: joint.to_owned(), name: name.to_owned(), value, angular: *angular }
+    };
+    asked.iter().map(coordinate).collect()
+}
+
+/// The rows of the loops at a position, those of joints with clearance as if they had none.
+fn loops(evaluator: &mut Evaluator<'_>, q: &[f64]) -> SparseRows {
+    let n = evaluator.sizes().speeds;
+    let mut jacobian = rows_of_free_offsets(evaluator, 0.0, q);
+    jacobian.extend(evaluator.closure(0.0, q, &vec![0.0; n]).jacobian);
+    SparseRows::from_entries(n, &jacobian)
 }
 
 /// The rows of the loops, and below them one for every speed that rests.

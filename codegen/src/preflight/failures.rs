@@ -8,6 +8,7 @@ use crate::id::JointId;
 use crate::model::{Joint, Mechanism, Start};
 
 use super::analysis::Analysis;
+use super::assemblies::{Coordinate, as_guesses};
 use super::exactness::{NEARLY, Opening, ROUNDING};
 use super::rank::{Lost, Rows};
 
@@ -138,7 +139,7 @@ fn demanded<'a>(mechanism: &'a Mechanism, names: &'a [String]) -> impl Iterator<
 pub fn out_of_reach(
     mechanism: &Mechanism,
     drivers: &[(JointId, usize)],
-    error: &AssemblyError,
+    (error, guesses): (&AssemblyError, Option<&[Coordinate]>),
 ) -> Diagnostic {
     let (names, loops) = match error {
         AssemblyError::HeldPositions { names, .. } if demanded(mechanism, names).next().is_some() => {
@@ -158,13 +159,20 @@ pub fn out_of_reach(
     if joints.is_empty() {
         return cannot_close(mechanism, error);
     }
-    let message = format!(
-        "where the driver of {} starts, at t = 0, {loops}",
-        quoted(joints.iter().map(|joint| joint.name.as_str()))
-    );
-    let mut diagnostic = Diagnostic::new(Code::LoopDoesNotClose, message)
-        .help("let the law start at a position that the loop can reach, or change lengths");
-    if !names.is_empty() {
+    let names_of_drivers = quoted(joints.iter().map(|joint| joint.name.as_str()));
+    let mut diagnostic = if let Some(guesses) = guesses {
+        let message = format!(
+            "where the driver of {names_of_drivers} starts, at t = 0, the loops can be closed, but not from the guesses \
+             of the file: from there {loops}"
+        );
+        let help = format!("start from a nearer guess, for instance `[assembly]` with `{}`", as_guesses(guesses));
+        Diagnostic::new(Code::LoopDoesNotClose, message).help(help)
+    } else {
+        let message = format!("where the driver of {names_of_drivers} starts, at t = 0, {loops}");
+        Diagnostic::new(Code::LoopDoesNotClose, message)
+            .help("let the law start at a position that the loop can reach, or change lengths")
+    };
+    if !names.is_empty() && guesses.is_none() {
         diagnostic = diagnostic.help(format!("nearest positions found: {}", names.join(", ")));
     }
     diagnostic.at_each(joints.iter().map(|joint| joint.span), "driven here")

@@ -27,11 +27,13 @@ mod subspace;
 mod turn;
 mod without_play;
 
+use linkwear_runtime::AssemblyError;
+
 use crate::derive::Guide;
 use crate::diagnostic::{Diagnostic, Diagnostics};
 
 pub use analysis::{Analysis, Redundant};
-pub use assemblies::{Assemblies, Coordinate, are_looked_for, assemblies};
+pub use assemblies::{Assemblies, Coordinate, are_looked_for, as_guesses, assemblies};
 pub use case::{Case, released};
 pub use contact_resonance::contacts_near_modes;
 pub use course::Waypoint;
@@ -43,6 +45,7 @@ pub use without_play::check_without_play;
 
 use course::Course;
 use rank::Rows;
+use samples::ClosedPositions;
 
 /// What is known after the analysis.
 #[derive(Clone, Debug)]
@@ -101,7 +104,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         errors.insert(0, failures::locked(mechanism, &analysis));
     }
     if errors.is_empty() {
-        errors.extend(start_fault(case, &analysis, &rows, refusal.as_ref()));
+        errors.extend(start_fault(case, &analysis, (&rows, &positions), refusal.as_ref()));
         if errors.is_empty() {
             errors = exactness::opens(case, &positions, &keep).map_or(errors, opens);
         }
@@ -147,8 +150,8 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
 fn start_fault(
     case: &Case<'_>,
     analysis: &Analysis,
-    rows: &Rows,
-    refusal: Option<&linkwear_runtime::AssemblyError>,
+    (rows, positions): (&Rows, &ClosedPositions),
+    refusal: Option<&AssemblyError>,
 ) -> Option<Diagnostic> {
     let drivers = case.drivers();
     let mut held = drivers.clone();
@@ -160,7 +163,10 @@ fn start_fault(
         (Some(lost), _) => {
             Some(failures::singular_start(case.mechanism, analysis, &joints, (&lost, refusal)))
         }
-        (None, Some(error)) => Some(failures::out_of_reach(case.mechanism, &drivers, error)),
+        (None, Some(error)) => {
+            let guesses = assemblies::guesses_that_close(case, positions);
+            Some(failures::out_of_reach(case.mechanism, &drivers, (error, guesses.as_deref())))
+        }
         (None, None) => None,
     }
 }

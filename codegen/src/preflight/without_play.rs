@@ -9,8 +9,10 @@ use crate::model::Mechanism;
 
 use super::analysis::Analysis;
 use super::case::Case;
-use super::failures;
+use super::course::Course;
 use super::rank::{Lost, Rows};
+use super::samples::ClosedPositions;
+use super::{failures, idle, turn};
 
 /// Checks drivers, freedoms and loops of the case of [`Mechanism::with_clearances_closed`].
 ///
@@ -71,7 +73,7 @@ pub fn check_without_play(
     let more = redundant(sizes.all_rows, rank)
         .saturating_sub(redundant(with_play.constraint_rows, with_play.independent_rows));
     Ok(match more {
-        0 => Vec::new(),
+        0 => turn_remarks(case, &positions),
         1 => by_clearance(
             "without them one more constraint of its loops is redundant, and they close only if made exactly",
         ),
@@ -79,6 +81,14 @@ pub fn check_without_play(
             "without them {more} more constraints of its loops are redundant, and they close only if made exactly"
         )),
     })
+}
+
+/// Whether the drivers can go where their laws lead them, as far as loops tell it that close by joints with clearance: open, those
+/// have no rows.
+fn turn_remarks(case: &Case<'_>, positions: &ClosedPositions) -> Vec<Diagnostic> {
+    let idle = idle::idle_freedoms(case, positions).len();
+    let course = Course::follow(case, positions, idle);
+    course.and_then(|course| turn::turn_remark(case.mechanism, &course)).into_iter().collect()
 }
 
 /// Sum of all radial clearances [m].

@@ -2,6 +2,7 @@
 
 use super::held::conflicts;
 use super::newton::Newton;
+use super::offset::free_offsets;
 use super::speeds;
 use super::state::State;
 use crate::description::Description;
@@ -41,7 +42,8 @@ pub fn assemble_with(evaluator: &mut Evaluator<'_>, t: f64) -> Result<State, Ass
     Ok(State { q, v })
 }
 
-/// The closed position that Newton finds at time `t` [s] from a guess of the free coordinates; `held` ones stay.
+/// The closed position that Newton finds at time `t` [s] from a guess of the free coordinates, with journals in the middle of their
+/// bearings; `held` ones stay.
 ///
 /// # Errors
 /// If the loops cannot be closed from there.
@@ -52,7 +54,8 @@ pub fn close_loops(
     held: &[bool],
 ) -> Result<Vec<f64>, AssemblyError> {
     let still = vec![0.0; evaluator.sizes().speeds];
-    Newton::new(evaluator, t, guess, &still, held).run()
+    let offsets = free_offsets(evaluator, t, guess);
+    Newton::new(evaluator, t, guess, &still, held).centred(offsets).run()
 }
 
 fn close(
@@ -62,6 +65,14 @@ fn close(
     wish: &[f64],
 ) -> Result<Vec<f64>, AssemblyError> {
     let held: Vec<bool> = evaluator.description().coordinates.iter().map(|c| c.held).collect();
+    let offsets = free_offsets(evaluator, t, guess);
+    // As if there were no clearances: journals that may be anywhere on the way leave the loops to close themselves wherever it is
+    // nearest, on another branch or turns away.
+    if !offsets.is_empty()
+        && let Ok(q) = Newton::new(evaluator, t, guess, wish, &held).centred(offsets).run()
+    {
+        return Ok(q);
+    }
     let failure = match Newton::new(evaluator, t, guess, wish, &held).run() {
         Ok(q) => return Ok(q),
         Err(failure) => failure,

@@ -19,7 +19,7 @@ mod units;
 mod within_clearance;
 
 pub use consistent::{assemble, assemble_with, close_loops};
-pub use offset::{motion_sizes, offset_columns};
+pub use offset::{motion_sizes, offset_columns, rows_of_free_offsets};
 pub use placing::place;
 pub(crate) use placing::place_moving;
 pub use state::State;

@@ -3,6 +3,7 @@
 //! linkage keeps 2 of 5); the Jacobian of dropped rows comes from central differences. Kept rows polish.
 
 use super::held::frozen;
+use super::offset::{offset_columns, place_in_motion};
 use super::units::Units;
 use crate::error::AssemblyError;
 use crate::evaluate::{CLOSED_AT_START, Evaluator};
@@ -29,6 +30,8 @@ pub(super) struct Newton<'e, 'a> {
     columns: Vec<bool>,
     pose_rows: Vec<(usize, usize, usize)>,
     angles: Vec<bool>,
+    /// Joint and axis of every offset that shall be zero.
+    centred: Vec<(usize, usize)>,
     units: Units,
     iterations: usize,
 }
@@ -52,10 +55,16 @@ impl<'e, 'a> Newton<'e, 'a> {
             columns,
             pose_rows,
             angles,
+            centred: Vec::new(),
             units: Units::new(evaluator, t, guess, wish),
             iterations: 0,
             evaluator,
         }
+    }
+
+    /// The same with these offsets (joint, axis) at zero, as if their joints had no clearance.
+    pub(super) fn centred(self, offsets: Vec<(usize, usize)>) -> Self {
+        Self { centred: offsets, ..self }
     }
 
     pub(super) fn run(mut self) -> Result<Vec<f64>, AssemblyError> {
@@ -77,10 +86,11 @@ impl<'e, 'a> Newton<'e, 'a> {
         if largest(&residual) <= POLISH {
             self.polish(&mut q);
         }
-        self.evaluator.closure(self.t, &q, &self.wish);
+        let offsets = self.residuals(&q).split_off(self.evaluator.sizes().all_rows);
         let error = self.evaluator.loop_error();
         // Rounding of large coordinates moves the loops by about their last place.
-        if error.part(self.units.arm) <= CLOSED_AT_START + 4.0 * f64::EPSILON * largest(&q) {
+        let closed = CLOSED_AT_START + 4.0 * f64::EPSILON * largest(&q);
+        if error.part(self.units.arm).max(largest(&offsets)) <= closed {
             return Ok(q);
         }
         Err(AssemblyError::NoConvergence {
@@ -92,9 +102,16 @@ impl<'e, 'a> Newton<'e, 'a> {
         })
     }
 
+    /// Of all rows, then of the offsets: pure numbers.
     fn residuals(&mut self, q: &[f64]) -> Vec<f64> {
         let residuals = self.evaluator.closure(self.t, q, &self.wish).positions;
-        residuals.iter().zip(&self.units.rows).map(|(residual, unit)| residual * unit).collect()
+        let mut pure: Vec<f64> =
+            residuals.iter().zip(&self.units.rows).map(|(residual, unit)| residual * unit).collect();
+        if !self.centred.is_empty() {
+            let motion = self.evaluator.contact_motion(self.t, q, &self.wish);
+            pure.extend(self.centred.iter().map(|place| motion[place_in_motion(*place)] / self.units.arm));
+        }
+        pure
     }
 
     /// Minimum-norm step, limited in length.
@@ -159,7 +176,7 @@ impl<'e, 'a> Newton<'e, 'a> {
                     self.residuals(&moved).into_iter()
                 });
                 let [plus, minus] = &mut sides;
-                for (i, (a, b)) in plus.zip(minus).enumerate() {
+                for (i, (a, b)) in plus.zip(minus).take(all).enumerate() {
                     jacobian[i * n + j] = (a - b) / (2.0 * DIFFERENCE);
                 }
             }
@@ -170,7 +187,19 @@ impl<'e, 'a> Newton<'e, 'a> {
         for (k, row) in self.evaluator.kept().iter().enumerate() {
             jacobian[row * n..(row + 1) * n].copy_from_slice(&exact[k * n..(k + 1) * n]);
         }
+        jacobian.extend(self.offset_rows(q));
         jacobian
+    }
+
+    /// The rows of the offsets, by all speeds.
+    fn offset_rows(&mut self, q: &[f64]) -> Vec<f64> {
+        if self.centred.is_empty() {
+            return Vec::new();
+        }
+        let columns = offset_columns(self.evaluator, self.t, q);
+        let Units { arm, speeds, .. } = &self.units;
+        let rows = self.centred.iter().map(|(joint, axis)| &columns[*joint][*axis]);
+        rows.flat_map(|row| row.iter().zip(speeds).map(|(entry, unit)| entry * unit / arm)).collect()
     }
 
     /// The longest of a few parts of the step that brings the loops nearer; `None` if none does.
@@ -204,15 +233,19 @@ impl<'e, 'a> Newton<'e, 'a> {
         moved
     }
 
-    /// Newton on the kept rows until rounding stops it.
+    /// Newton on the kept rows and the offsets until rounding stops it.
     fn polish(&mut self, q: &mut Vec<f64>) {
         let mut before = f64::INFINITY;
+        let offsets = self.evaluator.sizes().all_rows..;
+        let rows: Vec<usize> =
+            self.evaluator.kept().iter().copied().chain(offsets.take(self.centred.len())).collect();
         for _ in 0..8 {
             let n = self.columns.len();
             let positions = self.residuals(q);
             let mut jacobian = self.evaluator.last_closure().jacobian.to_vec();
             self.units.scale(&mut jacobian, self.evaluator.kept().iter().copied());
-            let kept: Vec<f64> = self.evaluator.kept().iter().map(|row| positions[*row]).collect();
+            jacobian.extend(self.offset_rows(q));
+            let kept: Vec<f64> = rows.iter().map(|row| positions[*row]).collect();
             let size = largest(&kept);
             if size == 0.0 || size > 0.5 * before || n == 0 {
                 return;
@@ -221,7 +254,7 @@ impl<'e, 'a> Newton<'e, 'a> {
             let delta = self.least_squares(q, jacobian, &kept, TOLERANCES[0]);
             let moved = self.moved(q, &delta, 1.0);
             let after = self.residuals(&moved);
-            if self.evaluator.kept().iter().all(|row| after[*row].abs() <= size) {
+            if rows.iter().all(|row| after[*row].abs() <= size) {
                 *q = moved;
             }
         }

@@ -1,8 +1,12 @@
 //! How journals move in their bearings with the free speeds. In: a position. Out: columns and places of the offsets.
 
+use super::held::frozen_speeds;
 use super::state::State;
 use crate::evaluate::Evaluator;
 use crate::system::CONTACT_MOTION;
+
+/// A speed that moves an offset by less than this [m/rad, 1] does not move it.
+const MOVES: f64 = 1e-9;
 
 /// How the offset of every contact moves with every free speed: `[joint][axis][speed]`, exactly, because rates
 /// are linear in the speeds.
@@ -32,6 +36,35 @@ pub(super) fn offset_places(
 ) -> Vec<(usize, usize)> {
     let joints = evaluator.clearances().joints().iter().enumerate().filter(|(joint, _)| counts(*joint));
     joints.flat_map(|(joint, law)| (0..law.freedoms()).map(move |axis| (joint, axis))).collect()
+}
+
+/// Contacts whose offset no demanded start value fixes.
+pub(super) fn free_contacts(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<bool> {
+    let columns = offset_columns(evaluator, t, q);
+    let fixed = frozen_speeds(evaluator);
+    let moved = |column: &[Vec<f64>; 3], speed: usize| column.iter().any(|row| row[speed].abs() > MOVES);
+    columns.iter().map(|column| !(0..fixed.len()).any(|speed| fixed[speed] && moved(column, speed))).collect()
+}
+
+/// Joint and axis of every component of their offsets.
+pub(super) fn free_offsets(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<(usize, usize)> {
+    if evaluator.clearances().is_empty() {
+        return Vec::new();
+    }
+    let free = free_contacts(evaluator, t, q);
+    offset_places(evaluator, |joint| free[joint])
+}
+
+/// How they move with every free speed, row by row.
+pub fn rows_of_free_offsets(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<f64> {
+    let places = free_offsets(evaluator, t, q);
+    let columns = if places.is_empty() { Vec::new() } else { offset_columns(evaluator, t, q) };
+    places.iter().flat_map(|(joint, axis)| &columns[*joint][*axis]).copied().collect()
+}
+
+/// Where a component of an offset stands in the answer of [`crate::Entry::Contacts`].
+pub(super) fn place_in_motion((joint, axis): (usize, usize)) -> usize {
+    joint * CONTACT_MOTION + axis
 }
 
 /// Natural size of the motion along every free speed at a state: 1, unless it moves a journal in its bearing by more than its

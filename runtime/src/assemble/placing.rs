@@ -2,13 +2,12 @@
 //! are there. Never knows why they are wanted there.
 
 use super::held::frozen_speeds;
-use super::offset::{offset_columns, offset_places};
+use super::offset::{offset_columns, offset_places, place_in_motion};
 use super::speeds;
 use super::state::State;
 use crate::evaluate::Evaluator;
 use crate::linear::{Orthogonal, add_scaled, largest};
 use crate::scalar::cross;
-use crate::system::CONTACT_MOTION;
 
 /// Offsets [m] (or nothing, where they may be anything) that journals shall have.
 pub(super) type Targets = [Option<[f64; 3]>];
@@ -103,9 +102,9 @@ impl Placing {
                 *right = -positions[*row];
             }
             let motion = evaluator.contact_motion(t, &state.q, &state.v);
-            for (right, (joint, axis)) in self.right[m..].iter_mut().zip(&self.places) {
-                let wanted = targets[*joint].unwrap_or_default()[*axis];
-                *right = wanted - motion[joint * CONTACT_MOTION + axis];
+            for (right, place) in self.right[m..].iter_mut().zip(&self.places) {
+                let (joint, axis) = *place;
+                *right = targets[joint].unwrap_or_default()[axis] - motion[place_in_motion(*place)];
             }
             let size = largest(&self.right);
             if size == 0.0 || (size > 0.5 * before && size < PLACED) {
@@ -132,8 +131,9 @@ impl Placing {
                 *right = -speed;
             }
             let motion = evaluator.contact_motion(t, &state.q, &state.v);
-            for (right, (joint, axis)) in self.right[m..].iter_mut().zip(&self.places) {
-                *right = rates[*joint][*axis] - motion[joint * CONTACT_MOTION + 3 + axis];
+            for (right, place) in self.right[m..].iter_mut().zip(&self.places) {
+                let (joint, axis) = *place;
+                *right = rates[joint][axis] - motion[place_in_motion(*place) + 3];
             }
             self.solver.solve(&self.right, &mut self.delta);
             add_scaled(&mut state.v, 1.0, &self.delta);

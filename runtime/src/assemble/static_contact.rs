@@ -11,8 +11,7 @@
 //! it, and nothing damps that.
 
 use super::consistent::assemble_with;
-use super::held::frozen_speeds;
-use super::offset::offset_columns;
+use super::offset::free_contacts;
 use super::placing::{carried, place, place_moving, pressed_along};
 use super::reactions::{ideal_reactions, turning};
 use super::sliding;
@@ -20,9 +19,6 @@ use super::state::State;
 use super::within_clearance::{self, DEEPEST_START};
 use crate::error::{AssemblyError, SetupError};
 use crate::evaluate::Evaluator;
-
-/// A speed that moves an offset by less than this [m/rad, 1] does not move it.
-const MOVES: f64 = 1e-9;
 
 /// What journals do that rest in their bearings.
 #[derive(Clone, Copy, PartialEq)]
@@ -91,8 +87,7 @@ fn rest(
     guess: &State,
     journals: Journals,
 ) -> (Option<State>, Vec<bool>) {
-    let columns = offset_columns(evaluator, t, &guess.q);
-    let placeable = free_contacts(evaluator, &columns);
+    let placeable = free_contacts(evaluator, t, &guess.q);
     let centred: Vec<Option<[f64; 3]>> = placeable.iter().map(|free| free.then_some([0.0; 3])).collect();
     let mut state = guess.clone();
     if !place(evaluator, t, &mut state, &centred) {
@@ -132,13 +127,6 @@ pub fn check_clearances(evaluator: &mut Evaluator<'_>, t: f64, state: &State) ->
         }
     }
     Ok(())
-}
-
-/// Contacts whose offset no demanded start value fixes.
-fn free_contacts(evaluator: &Evaluator<'_>, columns: &[[Vec<f64>; 3]]) -> Vec<bool> {
-    let fixed = frozen_speeds(evaluator);
-    let moved = |column: &[Vec<f64>; 3], speed: usize| column.iter().any(|row| row[speed].abs() > MOVES);
-    columns.iter().map(|column| !(0..fixed.len()).any(|speed| fixed[speed] && moved(column, speed))).collect()
 }
 
 /// Where a journal rests under an ideal reaction [N] on it.

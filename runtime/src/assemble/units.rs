@@ -1,11 +1,8 @@
-//! The unit of length in which assembly compares residuals with tolerances and lengths with angles.
+//! The unit of length in which assembly compares residuals with tolerances and lengths with angles: the mechanism's own longest
+//! lever arm, so that a tolerance means the same share of every mechanism, and a drawing of another scale starts as this one.
 //! In: a mechanism at its guess. Out: factors of rows and speeds. Never solves.
 
 use crate::evaluate::Evaluator;
-
-/// Mechanisms of ordinary size [m] count in metres; smaller and larger ones in their own longest lever arm, so that
-/// a tolerance means the same share of every mechanism.
-const ORDINARY: core::ops::RangeInclusive<f64> = 1e-2..=1e2;
 
 /// What rows and speeds are multiplied with.
 pub(super) struct Units {
@@ -22,11 +19,10 @@ impl Units {
     pub(super) fn new(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64], v: &[f64]) -> Self {
         let description = evaluator.description();
         let arm = evaluator.longest_arm(t, q, v);
-        let length = if ORDINARY.contains(&arm) { 1.0 } else { arm };
-        let speed = |unit: &str| if unit == "m/s" { length } else { 1.0 };
+        let speed = |unit: &str| if unit == "m/s" { arm } else { 1.0 };
         Self {
             arm,
-            rows: description.rows.iter().map(|row| if row.angular { 1.0 } else { 1.0 / length }).collect(),
+            rows: description.rows.iter().map(|row| if row.angular { 1.0 } else { 1.0 / arm }).collect(),
             speeds: description.speeds.iter().map(|info| speed(&info.unit)).collect(),
         }
     }

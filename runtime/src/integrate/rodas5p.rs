@@ -164,23 +164,37 @@ impl Solutions {
     }
 
     fn put(&mut self, stage: usize, solution: &[f64]) {
-        for (block, values) in self.0.iter_mut().zip(solution.chunks(4)) {
-            block[stage][..values.len()].copy_from_slice(values);
+        // Whole blocks first: those are moved as they are, what is left number by number.
+        let (whole, rest) = solution.as_chunks::<4>();
+        let (blocks, last) = self.0.split_at_mut(whole.len());
+        blocks.iter_mut().zip(whole).for_each(|(block, values)| block[stage] = *values);
+        for (place, value) in last.iter_mut().flat_map(|block| &mut block[stage]).zip(rest) {
+            *place = *value;
         }
     }
 
     /// Adds the weighted sum of as many solutions as there are weights.
     fn add(&self, weights: &[f64], values: &mut [f64]) {
-        for (block, values) in self.0.iter().zip(values.chunks_mut(4)) {
-            let mut sums = [0.0; 4];
-            for (weight, solution) in weights.iter().zip(block) {
-                for (sum, value) in sums.iter_mut().zip(solution) {
-                    *sum += weight * value;
-                }
-            }
-            values.iter_mut().zip(sums).for_each(|(value, sum)| *value += sum);
+        let (whole, rest) = values.as_chunks_mut::<4>();
+        let (blocks, last) = self.0.split_at(whole.len());
+        for (values, block) in whole.iter_mut().zip(blocks) {
+            let sums = sums(weights, block);
+            *values = std::array::from_fn(|i| values[i] + sums[i]);
+        }
+        for (value, sum) in rest.iter_mut().zip(last.iter().flat_map(|block| sums(weights, block))) {
+            *value += sum;
         }
     }
+}
+
+/// Weighted sums of a block's solutions, as many as there are weights.
+#[inline(always)]
+fn sums(weights: &[f64], solutions: &[Block; 8]) -> Block {
+    let mut sums = [0.0; 4];
+    for (weight, solution) in weights.iter().zip(solutions) {
+        sums = std::array::from_fn(|i| sums[i] + weight * solution[i]);
+    }
+    sums
 }
 
 impl Method for Rodas5P {

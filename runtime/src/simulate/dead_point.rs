@@ -26,6 +26,7 @@ pub(super) fn explain(
         | RunError::BranchChange { t, .. }
         | RunError::NonFinite { t, .. }
         | RunError::EnergyLost { t, .. }
+        | RunError::NoProgress { t, .. }
         | RunError::NewtonFailed { t, .. } => *t,
         _ => return error,
     };
@@ -45,9 +46,11 @@ fn find(motion: &mut ConstrainedMotion<'_>, (t, q): (f64, &[f64]), failed_at: f6
     if !ahead.is_finite() {
         return None;
     }
-    let (mut closed, mut open) = (t, failed_at.max(t) + ahead);
     let nothing = vec![false; q.len()];
-    let mut q = close_loops(evaluator, closed, q, &nothing).ok()?;
+    // Clearances let a driver go a little beyond the dead point.
+    let begins = [t, t - ahead];
+    let found = begins.into_iter().find_map(|t| Some((close_loops(evaluator, t, q, &nothing).ok()?, t)));
+    let ((mut q, mut closed), mut open) = (found?, failed_at.max(t) + ahead);
     if close_loops(evaluator, open, &q, &nothing).is_ok() {
         return None;
     }

@@ -44,9 +44,10 @@ pub struct SimulateAnswer<'a> {
     pub max_loop_error_rad: f64,
     /// Largest difference between the energy and what went in and out [J].
     pub energy_error_J: f64,
-    /// Energy that went through drives, dampers and springs [J], beside which the error is to be seen.
+    /// Energy that went through drives, dampers and springs [J], beside which the error is to be seen: of drives and forces
+    /// what both supply together in a step.
     pub energy_throughput_J: f64,
-    /// Largest loads of every joint.
+    /// Largest loads of every joint, at the ends of steps and at 240 places of a turn at least.
     pub peaks: Vec<PeakAnswer<'a>>,
     /// File of the rows; null if none was asked for.
     pub out: Option<String>,
