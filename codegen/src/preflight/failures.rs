@@ -165,7 +165,8 @@ pub fn out_of_reach(
             "where the driver of {names_of_drivers} starts, at t = 0, the loops can be closed, but not from the guesses \
              of the file: from there {loops}"
         );
-        let help = format!("start from a nearer guess, for instance `[assembly]` with `{}`", as_guesses(guesses));
+        let help =
+            format!("start from a nearer guess, for instance `[assembly]` with `{}`", as_guesses(guesses));
         Diagnostic::new(Code::LoopDoesNotClose, message).help(help)
     } else {
         let message = format!("where the driver of {names_of_drivers} starts, at t = 0, {loops}");
