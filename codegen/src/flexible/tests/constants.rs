@@ -6,11 +6,11 @@ use proptest::prelude::*;
 use super::*;
 
 fn holds() -> Vec<Hold> {
-    let at = |x, rotation| Attachment { x, rotation };
+    let at = |x, rotation| Attachment { x, rotation: [rotation; 2] };
     vec![
         Hold::Pinned(None),
         Hold::Pinned(Some([0.05, 0.33])),
-        Hold::Clamped,
+        Hold::CANTILEVER,
         Hold::Free,
         Hold::CraigBampton(vec![at(0.0, true), at(0.2, true), at(0.4, false)]),
     ]
@@ -220,7 +220,7 @@ fn any_beam() -> impl Strategy<Value = BeamInput> {
             let segments: Vec<Segment> =
                 segments.into_iter().map(|(length, of)| segment(length, of)).collect();
             let length: f64 = segments.iter().map(|segment| segment.length).sum();
-            let at = |part: f64| Attachment { x: part * length, rotation: true };
+            let at = |part: f64| Attachment { x: part * length, rotation: [true; 2] };
             BeamInput {
                 segments,
                 masses: masses
@@ -230,7 +230,7 @@ fn any_beam() -> impl Strategy<Value = BeamInput> {
                 theory: [Theory::EulerBernoulli, Theory::Rayleigh, Theory::Timoshenko][theory],
                 hold: [
                     Hold::Pinned(None),
-                    Hold::Clamped,
+                    Hold::CANTILEVER,
                     Hold::Free,
                     Hold::CraigBampton(vec![at(0.0), at(0.4), at(1.0)]),
                 ][hold]

@@ -8,7 +8,7 @@ fn names(data: &ModalData) -> Vec<&str> {
 
 #[test]
 fn equal_planes_alternate_with_equal_bits() {
-    for hold in [Hold::Pinned(None), Hold::Clamped, Hold::Free] {
+    for hold in [Hold::Pinned(None), Hold::CANTILEVER, Hold::Free] {
         let data = data(&rod(Theory::Timoshenko, hold, 6));
         assert_eq!(names(&data), ["y1", "z1", "y2", "z2", "y3", "z3"]);
         for pair in data.modes.chunks(2) {
@@ -90,7 +90,7 @@ fn static_deflection_follows_from_the_modes() {
 #[test]
 fn bending_stress_is_moment_over_section_modulus() {
     // A cantilever with a tip force F: sum of φ_k(L)/omega² curvature gives M = F L at the root.
-    let mut input = rod(Theory::EulerBernoulli, Hold::Clamped, 40);
+    let mut input = rod(Theory::EulerBernoulli, Hold::CANTILEVER, 40);
     input.damping_ratio = 0.0;
     let beam = Beam::new(&input).expect("a rod");
     let data = beam.modal_data(&[("root", 0.0), ("tip", LENGTH), ("middle", LENGTH / 2.0)]).expect("nodes");
@@ -115,7 +115,7 @@ fn at_a_step_the_thinner_side_is_the_more_stressed() {
 }
 
 fn craig_bampton(modes: usize, rotation: bool) -> BeamInput {
-    let at = |x, rotation| Attachment { x, rotation };
+    let at = |x, rotation| Attachment { x, rotation: [rotation; 2] };
     let hold = Hold::CraigBampton(vec![at(0.0, false), at(0.15, rotation), at(LENGTH, false)]);
     rod(Theory::Timoshenko, hold, modes)
 }
