@@ -2,8 +2,9 @@
 
 mod simulated;
 
+use linkwear_codegen::diagnostic::Label;
 use linkwear_runtime::{Integrator, Settings, Span};
-use simulated::{refused, run_with};
+use simulated::{compiled, refused, run_with};
 
 /// A body on another that a drive turns about the vertical; the joint between them, its start and its clearance.
 fn turning(joint: &str, start: &str, clearance: &str) -> String {
@@ -71,6 +72,22 @@ fn a_loose_joint_between_bodies_starts_as_the_ideal_one() {
             }
         }
     }
+}
+
+#[test]
+fn a_loose_ball_hangs_by_a_joint_as_the_ideal_one() {
+    let clearance = "[clearance.S]\nradial = \"50 um\"\njournal_radius = \"10 mm\"\nmodulus = \"100 GPa\"";
+    let [loose, ideal] = [clearance, ""].map(|clearance| {
+        let text = turning("spherical = [\"base\", \"body\"]", "{ v1 = \"1 rad/s\" }", clearance);
+        let warnings = compiled(&text).warnings;
+        warnings
+            .into_iter()
+            .find(|warning| warning.code.as_str() == "W0115")
+            .expect("two freedoms have no start")
+            .labels
+    });
+    let texts = |labels: Vec<Label>| labels.into_iter().map(|label| label.text).collect::<Vec<_>>();
+    assert_eq!(texts(loose), texts(ideal));
 }
 
 #[test]

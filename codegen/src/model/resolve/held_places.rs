@@ -5,7 +5,7 @@ use super::flexible::Bending;
 use super::inertia;
 use super::section::SAME_PLACE;
 use crate::id::PointId;
-use crate::model::{Carrier, Direction, Joint, Primitive};
+use crate::model::{Carrier, Direction, Joint};
 
 /// Cosine below which two directions are at right angles: written with six digits they are that far off.
 pub(super) const SQUARE: f64 = 1e-6;
@@ -94,20 +94,17 @@ fn beyond(joint: &Joint, carrier: Carrier) -> Carrier {
 /// In which planes a joint passes a bending moment: where nothing of it turns freely about the axis of the sections' turn.
 /// What a drive prescribes does not turn freely.
 fn moments(joint: &Joint, carrier: Carrier, frame: &[[f64; 3]; 3]) -> [bool; 2] {
-    let mut free = Vec::new();
-    for (number, primitive) in joint.model.primitives() {
-        if joint.drives.iter().any(|drive| drive.coordinate == number) {
-            continue;
-        }
-        let axis = match primitive {
-            Primitive::Turn(Direction::Z) | Primitive::Thread => joint.model.axes.first(),
-            Primitive::Turn(Direction::X) => joint.model.axes.get(1),
-            Primitive::Slide(_) | Primitive::Shift => continue,
-            Primitive::Turn(Direction::Y) | Primitive::Ball | Primitive::Pose => None,
-        };
-        let Some(axis) = axis else { return [false; 2] };
-        free.push(if joint.child == carrier { axis.child } else { axis.parent });
-    }
+    let driven = |number: usize| joint.drives.iter().any(|drive| drive.coordinate == number);
+    let Some(directions) = joint.model.turns_besides(driven) else { return [false; 2] };
+    let axes = directions.into_iter().map(|direction| match direction {
+        Direction::Z => joint.model.axes.first(),
+        Direction::X => joint.model.axes.get(1),
+        // Only what tilts turns about it, and about the second direction besides.
+        Direction::Y => None,
+    });
+    let Some(axes) = axes.collect::<Option<Vec<_>>>() else { return [false; 2] };
+    let free = axes.iter().map(|axis| if joint.child == carrier { axis.child } else { axis.parent });
+    let free: Vec<[f64; 3]> = free.collect();
     PLANES.map(|[_, turn]| free.iter().all(|axis| inertia::dot(*axis, frame[turn]).abs() < SQUARE))
 }
 
