@@ -91,7 +91,7 @@ fn squares(order: usize, speed: f64) -> [f64; 2] {
 /// Wave numbers times length of uniform beams, by how they are held: pi n; roots of cos x cosh x = -1; roots of cos x cosh x = 1.
 const WAVES: [(&str, Hold, [f64; 3]); 3] = [
     ("pinned", Hold::Pinned(None), [PI, 2.0 * PI, 3.0 * PI]),
-    ("clamped", Hold::Clamped, [1.875_104_068_711_961, 4.694_091_132_974_174, 7.854_757_438_237_613]),
+    ("clamped", Hold::CANTILEVER, [1.875_104_068_711_961, 4.694_091_132_974_174, 7.854_757_438_237_613]),
     ("free", Hold::Free, [4.730_040_744_862_704, 7.853_204_624_095_838, 10.995_607_838_001_67]),
 ];
 

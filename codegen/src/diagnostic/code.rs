@@ -224,6 +224,8 @@ codes! {
     UnplacedPoint = "W0120",
     /// Dry friction that follows a force which redundant constraints leave undetermined.
     FrictionNotUnique = "W0121",
+    /// A joint keeps a section of a flexible link from turning, and its shapes do not.
+    HeldAsFree = "W0122",
 }
 
 impl Code {

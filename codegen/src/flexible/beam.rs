@@ -47,8 +47,8 @@ pub enum Theory {
 pub struct Attachment {
     /// Place along the axis [m].
     pub x: f64,
-    /// Whether it passes moments across the axis, so that a static shape of its rotation is worth a mode.
-    pub rotation: bool,
+    /// Whether it passes moments that bend along y and along z, so that a static shape of its rotation is worth a mode.
+    pub rotation: [bool; 2],
 }
 
 /// How the beam is held: boundary conditions of the modes, and with them the floating frame.
@@ -57,8 +57,13 @@ pub enum Hold {
     /// Chord frame: the axis of the frame passes through two places of the beam, where deflection is 0.
     /// Its origin stays on x = 0 of the undeformed axis. `None`: both ends.
     Pinned(Option<[f64; 2]>),
-    /// The frame is fixed to the section at x = 0.
-    Clamped,
+    /// The frame is fixed to a section.
+    Clamped {
+        /// Place of the section [m].
+        at: f64,
+        /// Another place, where something pulls and twists: the first axial and the first torsional mode are the static ones.
+        far: Option<f64>,
+    },
     /// Modes of the free beam; the frame follows the mean motion.
     Free,
     /// Chord frame through the first and the last attachment, static shapes of the others, fixed-interface modes,
@@ -95,6 +100,11 @@ pub struct BeamInput {
     pub damping_ratio: f64,
     /// Whether the quadratic displacement field (foreshortening) is computed.
     pub second_order: bool,
+}
+
+impl Hold {
+    /// Clamped at x = 0, with nothing else attached.
+    pub const CANTILEVER: Self = Self::Clamped { at: 0.0, far: None };
 }
 
 impl BeamInput {
@@ -144,25 +154,51 @@ impl BeamInput {
 
     /// Held places or attachments in rising order; both ends of the chord first and last.
     pub(super) fn attachments(&self) -> Vec<Attachment> {
-        let at = |x| Attachment { x, rotation: false };
+        let at = |x| Attachment { x, rotation: [false; 2] };
         match &self.hold {
             Hold::Pinned(None) => vec![at(0.0), at(self.length())],
             Hold::Pinned(Some(held)) => held.iter().copied().map(at).collect(),
-            Hold::Clamped | Hold::Free => vec![],
+            Hold::Clamped { .. } | Hold::Free => vec![],
             Hold::CraigBampton(attachments) => attachments.clone(),
         }
     }
 
-    fn check_hold(&self) -> Result<(), BeamError> {
-        let attachments = self.attachments();
-        for attachment in &attachments {
-            self.place(attachment.x)?;
+    /// Places that the hold names, in rising order.
+    pub(super) fn held(&self) -> Vec<f64> {
+        let mut places: Vec<f64> = match &self.hold {
+            Hold::Clamped { at, far } => std::iter::once(*at).chain(*far).collect(),
+            _ => self.attachments().iter().map(|attachment| attachment.x).collect(),
+        };
+        places.sort_by(f64::total_cmp);
+        places
+    }
+
+    /// Where the axis keeps its place in the floating frame [m]; nothing if no place does.
+    pub(super) fn origin(&self) -> Option<f64> {
+        match &self.hold {
+            Hold::Clamped { at, .. } => Some(*at),
+            _ => self.attachments().first().map(|first| first.x),
         }
-        if matches!(self.hold, Hold::CraigBampton(_)) && attachments.len() < 2 {
+    }
+
+    /// Where what pulls and twists at the other end stretches and twists the beam statically; nothing if nothing does.
+    pub(super) fn far(&self) -> Option<f64> {
+        match &self.hold {
+            Hold::Clamped { far, .. } => *far,
+            _ => self.attachments().last().map(|last| last.x),
+        }
+    }
+
+    fn check_hold(&self) -> Result<(), BeamError> {
+        let held = self.held();
+        for place in &held {
+            self.place(*place)?;
+        }
+        if matches!(self.hold, Hold::CraigBampton(_)) && held.len() < 2 {
             return Err(BeamError::NoChord);
         }
         let near = 1e3 * same_place(self.length());
-        if attachments.windows(2).any(|pair| pair[1].x - pair[0].x < near) {
+        if held.windows(2).any(|pair| pair[1] - pair[0] < near) {
             return Err(BeamError::HeldTogether);
         }
         Ok(())

@@ -26,8 +26,8 @@ pub struct Line {
 /// What takes the rigid motion away.
 #[derive(Clone, Copy, Debug)]
 pub enum Anchor {
-    /// Value and rotation 0 at x = 0.
-    Start,
+    /// Value and rotation 0 at a station.
+    Section(usize),
     /// Value 0 at a station; of bars.
     Point(usize),
     /// Value 0 at two stations; of bending.
@@ -102,7 +102,10 @@ impl Line {
         let still = DVector::zeros(self.size);
         let value = |station: usize| self.station(station, 0);
         match anchor {
-            Anchor::Start => [still.clone(), still],
+            Anchor::Section(station) => {
+                let turn = -self.station(station, 1);
+                [-value(station) - &turn * self.place(station), turn]
+            }
             Anchor::Point(station) => [-value(station), still],
             Anchor::Chord(first, second) => {
                 let (from, to) = (self.place(first), self.place(second));

@@ -120,13 +120,13 @@ impl Mesh {
     }
 
     fn anchor(&self, input: &BeamInput, family: Family) -> Anchor {
-        let attachments = input.attachments();
-        let chord = [attachments.first(), attachments.last()].map(|end| end.map(|each| self.station(each.x)));
-        match (&input.hold, chord, family) {
-            (Hold::Free, ..) => Anchor::Mean,
-            (_, [Some(first), Some(second)], Family::Y | Family::Z) => Anchor::Chord(first, second),
-            (_, [Some(first), _], _) => Anchor::Point(first),
-            _ => Anchor::Start,
+        let Some(origin) = input.origin().map(|x| self.station(x)) else { return Anchor::Mean };
+        match (&input.hold, input.far(), family) {
+            (_, _, Family::Axial | Family::Torsion) => Anchor::Point(origin),
+            (Hold::Pinned(_) | Hold::CraigBampton(_), Some(far), _) => {
+                Anchor::Chord(origin, self.station(far))
+            }
+            _ => Anchor::Section(origin),
         }
     }
 
@@ -214,7 +214,7 @@ fn phases(input: &BeamInput, sections: &[Properties], properties: &[[Rates; 4]])
 fn spans(input: &BeamInput) -> Vec<(f64, f64, usize)> {
     let near = same_place(input.length());
     let masses = input.masses.iter().map(|mass| mass.x);
-    let mut places: Vec<f64> = masses.chain(input.attachments().iter().map(|each| each.x)).collect();
+    let mut places: Vec<f64> = masses.chain(input.held()).collect();
     places.sort_by(f64::total_cmp);
     let mut spans = vec![];
     let mut start = 0.0;

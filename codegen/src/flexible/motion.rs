@@ -119,7 +119,7 @@ impl Motions {
 
     /// With the second-order field: the axis keeps its length.
     ///
-    /// Chord frames: no displacement along x where the chord begins. Clamped: at x = 0. Free: none in the mean over the
+    /// Chord frames: no displacement along x where the chord begins. Clamped: at the section. Free: none in the mean over the
     /// mass, as with the modes themselves.
     pub fn with_shortening(mut self, input: &BeamInput, sections: &[Properties]) -> Self {
         let n = self.shapes.len();
@@ -127,7 +127,7 @@ impl Motions {
         for element in 0..self.mesh.segments.len() {
             stations.push(&stations[element] + self.shortening_inside(element, 1.0));
         }
-        let begin = input.attachments().first().map_or(0, |first| self.mesh.station(first.x));
+        let begin = input.origin().map_or(0, |x| self.mesh.station(x));
         let origin = stations[begin].clone();
         self.shortening = Some(Shortening { stations, origin });
         if input.hold == Hold::Free {

@@ -127,7 +127,7 @@ impl<'a> Task<'a> {
             if !chord {
                 rows.push(line.station(station, 0).clone());
             }
-            if *rotation {
+            if rotation[usize::from(family == Family::Z)] {
                 rows.push(line.station(station, 1).clone());
             }
         }
@@ -139,10 +139,10 @@ impl<'a> Task<'a> {
     /// Of a bar family.
     fn bar(input: &BeamInput, mesh: &'a Mesh, family: Family, count: usize) -> Result<Self, BeamError> {
         let line = mesh.line(family);
-        // The anchor holds the first end of a chord. What pulls at the other stretches the bar as one static shape does,
+        // The anchor holds one place. What pulls at the far one stretches the bar as one static shape does,
         // which many eigenmodes of the free end would only approach: it comes first, then modes with both ends held.
-        let last = input.attachments().last().map(|last| line.station(mesh.station(last.x), 0).clone());
-        let far: Vec<DVector<f64>> = last.into_iter().collect();
+        let far: Vec<DVector<f64>> =
+            input.far().map(|x| line.station(mesh.station(x), 0).clone()).into_iter().collect();
         let held = orthonormal(&far).ok_or(BeamError::Extreme)?;
         let fixed = if held.is_empty() { count } else { count.saturating_sub(1) };
         Ok(Self { family, mesh, held, count: fixed + 1 })

@@ -164,6 +164,11 @@ impl JointModel {
         self.any(|primitive| primitive == Pose)
     }
 
+    /// Whether it leaves a body all freedoms; of one whose clearance does so besides its own, the ideal joint does not.
+    pub fn flies(&self) -> bool {
+        self.is_free() && !self.holds_place()
+    }
+
     /// Whether the joint is a ball in a socket.
     pub fn is_ball(&self) -> bool {
         self.kind.primitives == [Ball]
@@ -191,12 +196,22 @@ impl JointModel {
 
     /// The directions about which the child turns.
     pub fn turns(&self) -> Vec<Direction> {
-        let turn = |(_, primitive)| match primitive {
-            Turn(direction) => Some(direction),
-            Thread => Some(Z),
+        self.turning().map(|(_, direction)| direction).collect()
+    }
+
+    /// The directions about which it turns by other coordinates than those `held`; nothing if it turns about any.
+    pub fn turns_besides(&self, held: impl Fn(usize) -> bool) -> Option<Vec<Direction>> {
+        let others = || self.turning().filter(|(number, _)| !held(*number));
+        (!self.turns_freely()).then(|| others().map(|(_, direction)| direction).collect())
+    }
+
+    /// Each with the number of its coordinate.
+    fn turning(&self) -> impl Iterator<Item = (usize, Direction)> {
+        self.numbered().filter_map(|(number, primitive)| match primitive {
+            Turn(direction) => Some((number, direction)),
+            Thread => Some((number, Z)),
             Slide(_) | Ball | Shift | Pose => None,
-        };
-        self.numbered().filter_map(turn).collect()
+        })
     }
 
     /// Advance of a thread per angle [m/rad]; nothing if the joint has none.

@@ -279,11 +279,11 @@ fn loose(mechanism: &Mechanism, analysis: &Analysis) -> Option<Diagnostic> {
         let mut own =
             mechanism.joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier);
         let only = own.next().filter(|_| own.next().is_none());
-        only.is_some_and(|joint| joint.drives.is_empty() && joint.model.rows() > 0)
+        only.is_some_and(|joint| joint.drives.is_empty() && !joint.model.flies())
     };
     let hanging = (0..mechanism.bodies.len()).filter(is_hanging);
     let hanging: Vec<&Body> = hanging.map(|body| &mechanism.bodies[body]).collect();
-    let flying = mechanism.joints.iter().filter(|joint| joint.model.rows() == 0).map(|joint| joint.span);
+    let flying = mechanism.joints.iter().filter(|joint| joint.model.flies()).map(|joint| joint.span);
     let flying: Vec<Span> = flying.collect();
     let driven = mechanism.joints.iter().find(|joint| !joint.drives.is_empty()).map(|joint| joint.span);
     let is_nobody = hanging.is_empty() && flying.is_empty();

@@ -91,7 +91,7 @@ tables! {
         /// [word; default "timoshenko"; e.g. "rayleigh"]
         pub theory: Option<At<TheorySpec>>,
         /// How the link is held, which decides the modes.
-        /// [word; default by the number of joints; e.g. "pinned"]
+        /// [word; default by the joints; e.g. "pinned"]
         pub held: Option<At<HeldSpec>>,
         /// 1: linear. 2: with foreshortening and geometric stiffness.
         /// [1; 1 or 2; default 1; e.g. 2]
@@ -201,11 +201,11 @@ pub enum TheorySpec {
 pub enum HeldSpec {
     /// Frame through both ends, which do not move in it.
     Pinned,
-    /// Frame on the first end.
+    /// Frame on the first end, by default on that which joints clamp.
     Clamped,
     /// Frame on the mean axes.
     Free,
-    /// Pinned, with the places between where something is attached as further modes.
+    /// Pinned, with the places between where something is attached, and the turns of ends that joints hold, as further modes.
     CraigBampton,
 }
 

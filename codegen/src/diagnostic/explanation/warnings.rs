@@ -113,7 +113,7 @@ T1 = { fixed = ["ground", "left"], at = "E" }"#,
 A = ["0.42 m", 0, 0]
 
 [bodies]
-bar = { rod = ["O", "A"], radius = "6 mm", density = "7850 kg/m^3", flexible = { modes = 2, young = "210 GPa", held = "pinned" } }
+bar = { rod = ["O", "A"], radius = "6 mm", density = "7850 kg/m^3", flexible = { modes = 2, young = "210 GPa" } }
 
 [joints]
 hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "2*pi*10 Hz*t" }"#,
@@ -121,10 +121,10 @@ hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "2*p
 A = ["0.42 m", 0, 0]
 
 [bodies]
-bar = { rod = ["O", "A"], radius = "6 mm", density = "7850 kg/m^3", flexible = { modes = 2, young = "210 GPa", held = "pinned" } }
+bar = { rod = ["O", "A"], radius = "6 mm", density = "7850 kg/m^3", flexible = { modes = 2, young = "210 GPa" } }
 
 [joints]
-hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "2*pi*9.5 Hz*t" }"#,
+hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "2*pi*9 Hz*t" }"#,
     },
     Explanation {
         code: Code::ContactNearMode,
@@ -332,5 +332,22 @@ P = [0, 0, "0.25 m"]
 
 [joints]
 hinge = { revolute = ["ground", "bar"], at = "P", axis = [0, 0, 1], dry_friction = { coefficient = 0.1, radius = "10 mm", length = "0.5 m" } }"#,
+    },
+    Explanation {
+        code: Code::HeldAsFree,
+        file: File::Swing,
+        text: "A weld, a guide, a drive, or a pin across which the weight bends the link, keeps a section from turning, and \
+               the shapes of the link leave it free to. Many modes are needed then for the moment there: a cantilever with \
+               two pinned modes in each plane sags three quarters of what it should. Without `held` such an end is clamped.",
+        wrong: r#"[bodies]
+bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = { modes = 4, young = "210 GPa", held = "pinned" } }
+
+[joints]
+hinge = { prismatic = ["ground", "bar"], at = "O", axis = [0, 1, 0] }"#,
+        right: r#"[bodies]
+bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = { modes = 4, young = "210 GPa" } }
+
+[joints]
+hinge = { prismatic = ["ground", "bar"], at = "O", axis = [0, 1, 0] }"#,
     },
 ];

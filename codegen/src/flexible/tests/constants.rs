@@ -6,13 +6,15 @@ use proptest::prelude::*;
 use super::*;
 
 fn holds() -> Vec<Hold> {
-    let at = |x, rotation| Attachment { x, rotation };
+    let at = |x, rotation| Attachment { x, rotation: [rotation; 2] };
     vec![
         Hold::Pinned(None),
         Hold::Pinned(Some([0.05, 0.33])),
-        Hold::Clamped,
+        Hold::CANTILEVER,
+        Hold::Clamped { at: 0.33, far: Some(0.05) },
         Hold::Free,
         Hold::CraigBampton(vec![at(0.0, true), at(0.2, true), at(0.4, false)]),
+        Hold::CraigBampton(vec![Attachment { x: 0.0, rotation: [true, false] }, at(0.4, true)]),
     ]
 }
 
@@ -215,12 +217,12 @@ fn any_beam() -> impl Strategy<Value = BeamInput> {
     let segments = prop::collection::vec((0.05..0.4, section()), 1..4);
     let mass = (0.0..1.0, 0.01..2.0, 0.0..1e-4);
     let masses = prop::collection::vec(mass, 0..3);
-    (segments, masses, 0..3_usize, 0..4_usize, 0..7_usize).prop_map(
+    (segments, masses, 0..3_usize, 0..5_usize, 0..7_usize).prop_map(
         |(segments, masses, theory, hold, bending)| {
             let segments: Vec<Segment> =
                 segments.into_iter().map(|(length, of)| segment(length, of)).collect();
             let length: f64 = segments.iter().map(|segment| segment.length).sum();
-            let at = |part: f64| Attachment { x: part * length, rotation: true };
+            let at = |part: f64| Attachment { x: part * length, rotation: [true; 2] };
             BeamInput {
                 segments,
                 masses: masses
@@ -230,9 +232,10 @@ fn any_beam() -> impl Strategy<Value = BeamInput> {
                 theory: [Theory::EulerBernoulli, Theory::Rayleigh, Theory::Timoshenko][theory],
                 hold: [
                     Hold::Pinned(None),
-                    Hold::Clamped,
+                    Hold::CANTILEVER,
                     Hold::Free,
                     Hold::CraigBampton(vec![at(0.0), at(0.4), at(1.0)]),
+                    Hold::Clamped { at: 0.7 * length, far: Some(0.0) },
                 ][hold]
                     .clone(),
                 modes: Counts { bending, ..Counts::default() },

@@ -21,7 +21,7 @@ fn euler_bernoulli_rods_have_the_known_frequencies() {
     let printed = 1e-6;
     let pinned = rod_frequencies(Theory::EulerBernoulli, Hold::Pinned(None));
     assert_close(&pinned, &[138.1711, 552.6846, 1243.5403], printed);
-    let clamped = rod_frequencies(Theory::EulerBernoulli, Hold::Clamped);
+    let clamped = rod_frequencies(Theory::EulerBernoulli, Hold::CANTILEVER);
     assert_close(&clamped, &[49.2230, 308.4755, 863.7403], printed);
     let free = rod_frequencies(Theory::EulerBernoulli, Hold::Free);
     assert_close(&free, &[313.2185, 863.3988, 1692.6069], printed);
@@ -38,7 +38,7 @@ fn euler_bernoulli_rods_meet_the_closed_form_almost_to_rounding() {
     let clamped: Vec<f64> =
         (0..3).map(|n| root(clamped, f64::from(n) * PI + 0.1, f64::from(n + 1) * PI)).collect();
     let clamped: Vec<f64> = clamped.into_iter().map(hertz).collect();
-    assert_close(&rod_frequencies(Theory::EulerBernoulli, Hold::Clamped), &clamped, tolerance);
+    assert_close(&rod_frequencies(Theory::EulerBernoulli, Hold::CANTILEVER), &clamped, tolerance);
     let free = |wave: f64| wave.cos() - 1.0 / wave.cosh();
     let free: Vec<f64> = (1..4).map(|n| root(free, f64::from(n) * PI + 0.1, f64::from(n + 1) * PI)).collect();
     let free: Vec<f64> = free.into_iter().map(hertz).collect();
@@ -94,7 +94,7 @@ fn few_elements_are_enough() {
 fn a_stepped_cantilever_meets_its_frequency_equation() {
     let (first, second) = (0.25, 0.17);
     let radii = [0.008, 0.005];
-    let mut input = rod(Theory::EulerBernoulli, Hold::Clamped, 6);
+    let mut input = rod(Theory::EulerBernoulli, Hold::CANTILEVER, 6);
     input.segments = vec![
         segment(first, Section::Round { radius: radii[0] }),
         segment(second, Section::Round { radius: radii[1] }),
@@ -144,7 +144,7 @@ fn shapes_from(x: f64, [hyperbolic, circular]: [f64; 2]) -> [[f64; 4]; 2] {
 /// A cantilever with a point mass at its tip: 1 + cos cosh + ratio x (cos sinh - sin cosh) = 0, x = k L.
 #[test]
 fn a_tip_mass_lowers_the_frequencies_as_its_equation_says() {
-    let mut input = rod(Theory::EulerBernoulli, Hold::Clamped, 6);
+    let mut input = rod(Theory::EulerBernoulli, Hold::CANTILEVER, 6);
     let mass = STEEL.density * PI * RADIUS * RADIUS * LENGTH;
     let ratio = 0.7;
     input.masses = vec![ConcentratedMass { x: LENGTH, mass: ratio * mass, inertia: [0.0; 3] }];
@@ -169,7 +169,7 @@ fn axial_and_torsional_families_are_those_of_a_bar() {
     let truncated = beam.truncated();
     // Held at both ends: c / (2 L). Rounding of a dense eigenproblem.
     assert_close(&[truncated.axial, truncated.torsion], &[axial / 0.84, twist / 0.84], 1e-11);
-    input.hold = Hold::Clamped;
+    input.hold = Hold::CANTILEVER;
     input.modes = Counts { bending: 0, axial: 2, torsion: 1 };
     let quarter = 1.0 / (4.0 * LENGTH);
     assert_close(&frequencies(&input, 'x'), &[axial * quarter, 3.0 * axial * quarter], 1e-11);

@@ -8,7 +8,7 @@ fn names(data: &ModalData) -> Vec<&str> {
 
 #[test]
 fn equal_planes_alternate_with_equal_bits() {
-    for hold in [Hold::Pinned(None), Hold::Clamped, Hold::Free] {
+    for hold in [Hold::Pinned(None), Hold::CANTILEVER, Hold::Free] {
         let data = data(&rod(Theory::Timoshenko, hold, 6));
         assert_eq!(names(&data), ["y1", "z1", "y2", "z2", "y3", "z3"]);
         for pair in data.modes.chunks(2) {
@@ -90,7 +90,7 @@ fn static_deflection_follows_from_the_modes() {
 #[test]
 fn bending_stress_is_moment_over_section_modulus() {
     // A cantilever with a tip force F: sum of φ_k(L)/omega² curvature gives M = F L at the root.
-    let mut input = rod(Theory::EulerBernoulli, Hold::Clamped, 40);
+    let mut input = rod(Theory::EulerBernoulli, Hold::CANTILEVER, 40);
     input.damping_ratio = 0.0;
     let beam = Beam::new(&input).expect("a rod");
     let data = beam.modal_data(&[("root", 0.0), ("tip", LENGTH), ("middle", LENGTH / 2.0)]).expect("nodes");
@@ -114,8 +114,26 @@ fn at_a_step_the_thinner_side_is_the_more_stressed() {
     }
 }
 
+#[test]
+fn a_rod_clamped_at_its_second_end_is_the_other_way_round() {
+    let of = |hold| {
+        let mut input = rod(Theory::Timoshenko, hold, 4);
+        (input.modes.axial, input.modes.torsion) = (1, 1);
+        data(&input)
+    };
+    let [first, second] =
+        [(0.0, LENGTH), (LENGTH, 0.0)].map(|(at, far)| of(Hold::Clamped { at, far: Some(far) }));
+    let frequencies = |data: &ModalData| data.modes.iter().map(|mode| mode.frequency).collect::<Vec<_>>();
+    // Rounding of a dense eigenproblem.
+    assert_close(&frequencies(&first), &frequencies(&second), 1e-10);
+    // Axial: the static stretch, sqrt(3 E / rho) / L in place of pi/2 of the free end.
+    let stretch = (3.0 * STEEL.youngs_modulus / STEEL.density).sqrt() / LENGTH / (2.0 * std::f64::consts::PI);
+    let axial = first.modes.iter().find(|mode| mode.name == "x1").expect("asked for");
+    assert_close(&[axial.frequency], &[stretch], 1e-10);
+}
+
 fn craig_bampton(modes: usize, rotation: bool) -> BeamInput {
-    let at = |x, rotation| Attachment { x, rotation };
+    let at = |x, rotation| Attachment { x, rotation: [rotation; 2] };
     let hold = Hold::CraigBampton(vec![at(0.0, false), at(0.15, rotation), at(LENGTH, false)]);
     rod(Theory::Timoshenko, hold, modes)
 }
@@ -165,6 +183,12 @@ fn wrong_beams_are_refused() {
     assert_eq!(negative, BeamError::NotPositive { what: "length", segment: 0, value: -1.0 });
     assert_eq!(wrong(&|input| input.hold = Hold::Pinned(Some([0.2, 0.2]))), BeamError::HeldTogether);
     assert_eq!(wrong(&|input| input.hold = Hold::CraigBampton(vec![])), BeamError::NoChord);
+    assert_eq!(
+        wrong(&|input| input.hold = Hold::Clamped { at: 0.2, far: Some(0.2) }),
+        BeamError::HeldTogether
+    );
+    let outside = wrong(&|input| input.hold = Hold::Clamped { at: 0.5, far: None });
+    assert_eq!(outside, BeamError::Outside { x: 0.5, length: LENGTH });
     let outside = wrong(&|input| input.hold = Hold::Pinned(Some([0.2, 0.5])));
     assert_eq!(outside, BeamError::Outside { x: 0.5, length: LENGTH });
     let heavy = |input: &mut BeamInput| {

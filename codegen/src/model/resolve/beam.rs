@@ -1,4 +1,4 @@
-//! A flexible body as a beam along its rod, tube or box: where it lies, how it is held, what is looked at.
+//! A flexible body as a beam along its rod, tube or box: where it lies, what it consists of, what is looked at.
 //! Out: [`Flexible`]. The modes themselves are computed by [`crate::flexible`].
 
 use super::flexible::{Bending, hinges, section_axes};
@@ -7,12 +7,11 @@ use super::resolver::{Resolver, place};
 use super::section::{SAME_PLACE, outer_stress};
 use crate::diagnostic::Code;
 use crate::flexible::{
-    Attachment, Beam, BeamError, BeamInput, Counts, Hold, MODE_LIMIT, Material, ModalData, Node, Section,
-    Theory,
+    Beam, BeamError, BeamInput, Counts, MODE_LIMIT, Material, ModalData, Node, Section, Theory,
 };
 use crate::id::PointId;
 use crate::model::{Flexible, Inertia, LeftOut, Station};
-use crate::spec::{At, Dimension, FlexibleSpec, HeldSpec, Name, Quantity, TheorySpec};
+use crate::spec::{At, Dimension, FlexibleSpec, Name, Quantity, TheorySpec};
 
 /// Places along the link whose displacement and stress are columns, as shares of its length, unless the file
 /// names others. The middle always is.
@@ -135,55 +134,11 @@ impl Resolver<'_> {
             self.refuse(Code::BadModes, written.span, message)
                 .help("1 is linear; 2 adds foreshortening and geometric stiffness");
         }
-        let hold = self.hold(of, axis)?;
+        let along = of.uses.iter().map(|own| axis.local(self.fixed_position(name, own.point, of.carrier))[0]);
+        let along: Vec<f64> = along.collect();
+        let hold = self.hold(of, &along, &axis.frame, axis.length)?;
         let second_order = order == 2;
         Some(BeamInput { segments, masses, theory, hold, modes, damping_ratio, second_order })
-    }
-
-    /// As the file says; else by the number of places where joints hold the link.
-    fn hold(&mut self, of: Bending<'_>, axis: &Axis) -> Option<Hold> {
-        let (name, held) = (of.name, of.spec.value.held.as_ref());
-        let mut places: Vec<Attachment> = Vec::new();
-        for own in of.uses.iter().filter(|own| own.held) {
-            let x = axis.local(self.fixed_position(name, own.point, of.carrier))[0];
-            match places.iter_mut().find(|known| (known.x - x).abs() < SAME_PLACE * axis.length) {
-                Some(known) => known.rotation |= own.turns,
-                None => places.push(Attachment { x, rotation: own.turns }),
-            }
-        }
-        places.sort_by(|a, b| a.x.total_cmp(&b.x));
-        let default = match places.len() {
-            0 => HeldSpec::Free,
-            1 => HeldSpec::Clamped,
-            2 => HeldSpec::Pinned,
-            _ => HeldSpec::CraigBampton,
-        };
-        match held.map_or(default, |held| held.value) {
-            HeldSpec::Clamped if held.is_none() && places[0].x.abs() > SAME_PLACE * axis.length => {
-                // Held somewhere else than at its first end: the mean axes favour no place.
-                Some(Hold::Free)
-            }
-            HeldSpec::Clamped => Some(Hold::Clamped),
-            HeldSpec::Free => Some(Hold::Free),
-            HeldSpec::Pinned if places.len() >= 2 => {
-                Some(Hold::Pinned(Some([places[0].x, places[places.len() - 1].x])))
-            }
-            HeldSpec::Pinned => Some(Hold::Pinned(None)),
-            HeldSpec::CraigBampton if places.len() >= 2 => {
-                // Moments bend a link between revolutes only if they are passed across its ends.
-                let middle = 1..places.len() - 1;
-                for (index, place) in places.iter_mut().enumerate() {
-                    place.rotation &= middle.contains(&index);
-                }
-                Some(Hold::CraigBampton(places))
-            }
-            HeldSpec::CraigBampton => {
-                let message = format!("`{}` is held at fewer than two places", name.value);
-                self.refuse(Code::BadModes, held.map_or(name.span, |h| h.span), message)
-                    .help("take `held` away");
-                None
-            }
-        }
     }
 
     fn solved(&mut self, of: Bending<'_>, axis: &Axis, input: &BeamInput) -> Result<Flexible, BeamError> {

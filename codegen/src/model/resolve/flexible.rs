@@ -11,7 +11,7 @@ use crate::flexible::ModalData;
 use crate::id::{BodyId, PointId};
 use crate::input::read_named;
 use crate::limits;
-use crate::model::{Body, Carrier, Direction, Flexible, Force, Joint, Station};
+use crate::model::{Body, Carrier, Direction, Flexible, Force, Formula, Joint, Station};
 use crate::spec::{At, Dimension, File, FlexibleSpec, Name, Quantity};
 
 /// Nodes of modal data match points that are nearer than this share of the body's size: coordinates written
@@ -37,6 +37,8 @@ pub(super) struct Bending<'a> {
     pub(super) body: &'a Body,
     pub(super) joints: &'a [Joint],
     pub(super) uses: &'a [Use],
+    /// In W [m/s²].
+    pub(super) gravity: [f64; 3],
 }
 
 impl Resolver<'_> {
@@ -46,16 +48,18 @@ impl Resolver<'_> {
         bodies: &mut [Body],
         joints: &[Joint],
         forces: &[Force],
+        gravity: &[Formula; 3],
     ) {
         // Without points nothing says where a body lies, or what holds it; that is reported where they are named.
         if self.points.is_empty() {
             return;
         }
+        let gravity = self.values_of(gravity);
         for (index, (name, body)) in file.bodies.0.iter().enumerate() {
             let Some(spec) = &body.value.flexible else { continue };
             let carrier = Carrier::Body(BodyId::new(index));
             let uses = self.uses_of(carrier, &bodies[index], joints, forces);
-            let of = Bending { name, carrier, spec, body: &bodies[index], joints, uses: &uses };
+            let of = Bending { name, carrier, spec, body: &bodies[index], joints, uses: &uses, gravity };
             let flexible = match &spec.value.data {
                 Some(data) => self.read_modal_data(of, data),
                 None => self.beam(of),

@@ -19,6 +19,8 @@ mod couplings;
 mod dry_friction;
 mod flexible;
 mod forces;
+mod held;
+mod held_places;
 mod inertia;
 mod inputs;
 mod joint_model;
@@ -150,7 +152,7 @@ impl Resolver<'_> {
         let starts = self.resolve_starts(&file, &joints);
         let stops = self.resolve_stops(&file.stops, &joints, &starts);
         self.find_carriers(&file, &bodies, &joints, (&forces, &couplings));
-        self.resolve_flexible(&file, &mut bodies, &joints, &forces);
+        self.resolve_flexible(&file, &mut bodies, &joints, &forces, &gravity);
         self.check_connected(&file, &joints);
         self.warn_unused(written);
         Mechanism {

@@ -36,7 +36,7 @@ impl Resolver<'_> {
                 let Some(id) = self.joint_named(name, &what) else { continue };
                 let joint = &joints[id.index()];
                 let sides = [joint.parent, joint.child];
-                if joint.model.rows() == 0 && !sides.contains(&Carrier::Ground) {
+                if joint.model.flies() && !sides.contains(&Carrier::Ground) {
                     let message = format!(
                         "the free joint `{}` is between two bodies, and has start values",
                         name.value
