@@ -5,6 +5,7 @@ mod measuring;
 mod settings;
 mod settling;
 mod side_by_side;
+mod stability;
 mod steadiness;
 mod wearing;
 
@@ -170,7 +171,8 @@ impl<'a> DynamicsSource<'a> {
             let ratio = (unworn + worn) / (unworn + before);
             far = far.max(ratio).max(1.0 / ratio);
         }
-        Ok(Measuring::new(&self.settings, Settling::new(from, far, self.settings.settled())))
+        let settling = Settling::new(from, far, self.settings.settled());
+        Ok(Measuring::new(&self.settings, settling, self.wearing.rooms(joints)))
     }
 
     /// Runs one turn, as a part of a measurement.
@@ -207,7 +209,9 @@ impl<'a> DynamicsSource<'a> {
     fn all_turns(&mut self, measuring: &mut Measuring) -> Result<(), RunError> {
         loop {
             let turn = self.turn(measuring.next())?;
-            if measuring.take(turn, &self.wearing) {
+            let is_done = measuring.take(turn, &self.wearing);
+            let is_open = is_done && measuring.shows_nothing(&self.wearing);
+            if is_done && !(is_open && leaves(&mut self.runner, measuring, self.watch)?) {
                 return Ok(());
             }
         }
@@ -216,13 +220,13 @@ impl<'a> DynamicsSource<'a> {
     /// What a measurement has come to; its state is where the next one goes on.
     fn end(&mut self, done: Done, state: &mut Option<Orbit>) -> Vec<ContactMeasure> {
         *state = Some(done.orbit);
-        self.note(&done.turns);
+        self.note(done.doubts.iter().chain(done.turns.iter().flat_map(|turn| &turn.warnings)));
         self.steadiness.push(done.steadiness);
         done.measured
     }
 
-    fn note(&mut self, turns: &[TurnMeasures]) {
-        for warning in turns.iter().flat_map(|turn| &turn.warnings) {
+    fn note<'w>(&mut self, warnings: impl Iterator<Item = &'w RunWarning>) {
+        for warning in warnings {
             // Told once a kind: the figures change from turn to turn.
             let same =
                 |known: &RunWarning| core::mem::discriminant(known) == core::mem::discriminant(warning);
@@ -231,6 +235,16 @@ impl<'a> DynamicsSource<'a> {
             }
         }
     }
+}
+
+/// Whether a measurement has to be made again whose turns agree for want of anything that would take them apart: the runner, at the end
+/// of its last turn, is then where the motion goes.
+fn leaves(runner: &mut TurnRunner<'_>, measuring: &mut Measuring, watch: Watch<'_>) -> Result<bool, RunError> {
+    let (from, _) = measuring.next();
+    let left = stability::leave(runner, watch.piece(from, from))?;
+    let has_left = left.is_some();
+    measuring.is_tried(left);
+    Ok(has_left)
 }
 
 impl WearSource for DynamicsSource<'_> {
