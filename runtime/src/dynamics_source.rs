@@ -239,7 +239,11 @@ impl<'a> DynamicsSource<'a> {
 
 /// Whether a measurement has to be made again whose turns agree for want of anything that would take them apart: the runner, at the end
 /// of its last turn, is then where the motion goes.
-fn leaves(runner: &mut TurnRunner<'_>, measuring: &mut Measuring, watch: Watch<'_>) -> Result<bool, RunError> {
+fn leaves(
+    runner: &mut TurnRunner<'_>,
+    measuring: &mut Measuring,
+    watch: Watch<'_>,
+) -> Result<bool, RunError> {
     let (from, _) = measuring.next();
     let left = stability::leave(runner, watch.piece(from, from))?;
     let has_left = left.is_some();

@@ -14,27 +14,29 @@ use crate::linear::{add_scaled, dot};
 use crate::simulate::{RunWarning, TurnRunner, TurnState};
 use crate::watch::Watch;
 
-/// Displacements [radial clearances]: contacts, pressed in by a hundredth of that and more, are linear to a thousandth, and steps that
-/// err by a millionth of a motion show a growth of that.
-const DISPLACED: f64 = 1e-4;
+/// Displacements [radial clearances]: a hundredth of what a light load presses a journal in by. The factors of rotors and of journals
+/// that tilt are those of a tenth as much to 2e-5, and of a hundred times as much to 4e-4.
+const DISPLACED: f64 = 1e-5;
+/// Tolerance of steps meanwhile. A contact that rests shakes within it and in proportion, by the same number of steps: at 1e-6 by ten
+/// times a displacement in rates, at 1e-8 by so little that factors are those at 1e-12 to 2e-4.
+const EXACT: f64 = 1e-8;
 /// Displacements that are tried at most. Two joints with two freedoms and their rates have as many; of more, those that grow most show.
 const MOST_TRIED: usize = 8;
-/// Tolerance of steps meanwhile: a contact that rests shakes in proportion to it, without further steps, at 1e-6 by ten times a
-/// displacement in rates.
-const EXACT: f64 = 1e-10;
 /// A direction that is left by less than this part of a displacement is none, but nonlinearity.
 const NO_DIRECTION: f64 = 1e-6;
-/// A swing that nothing damps is kept by steps to 1e-5 a turn; what grows by less than this a turn is taken for one.
+/// A swing that nothing damps comes out with a factor of 1 to 2e-4, as of rotors with a coefficient of friction of 0 and 0.1; one that
+/// grows by less than this in a turn is taken for it.
 const GROWS: f64 = 1e-3;
 /// Squarings of the matrix: its largest eigenvalue by the 2^30th power is exact to rounding.
 const SQUARINGS: i32 = 30;
-/// The push [radial clearances] from which a growing motion starts: well beyond rounding, well within its bearing.
-const PUSHED: f64 = 1e-2;
+/// The push from which a growing motion starts, in the natural sizes of offsets and rates: well beyond rounding, and in its offset, of a
+/// swing ten times as fast as the turn, a hundredth of the clearance.
+const PUSHED: f64 = 0.1;
 /// It has grown to all that it will, and settled there, in the turns in which a displacement would grow by the exponential of this: five
 /// to fill the clearance, as many to come to rest in its lasting swing.
 const FULL: f64 = 10.0;
-/// Turns at most: those of a steady load take some milliseconds each.
-const MOST_TURNS: f64 = 2000.0;
+/// Turns at most: those of a steady load take a millisecond or some.
+const MOST_TURNS: f64 = 3000.0;
 
 /// How a displacement of journals grows in a turn.
 #[derive(Clone, Debug)]
@@ -54,12 +56,11 @@ pub(super) fn leave(
     watch: Watch<'_>,
 ) -> Result<Option<Option<RunWarning>>, RunError> {
     let begin = runner.state();
-    let method = runner.go_by(runner.method().at_least(std::env::var("LWT").map_or(EXACT,|x|x.parse().unwrap())));
+    let method = runner.go_by(runner.method().at_least(EXACT));
     let growth = growth(runner, &begin, watch);
     runner.go_by(method);
     runner.restore(&begin)?;
     let growth = growth?;
-    if std::env::var("LWDBG").is_ok() { eprintln!("GROWTH {growth:?}"); }
     let Some(Growth { factor, direction }) = growth.filter(|growth| growth.factor > 1.0 + GROWS) else {
         return Ok(None);
     };
@@ -94,13 +95,13 @@ fn growth(
     while let Some(tried) = basis.last().filter(|_| basis.len() <= most).cloned() {
         let column = basis.len() - 1;
         runner.restore(begin)?;
-        let by: Vec<f64> = tried.iter().map(|x| displaced() * x).collect();
+        let by: Vec<f64> = tried.iter().map(|x| DISPLACED * x).collect();
         if !displace(runner, &by, &scales) {
             return Ok(None);
         }
         runner.measure(watch)?;
         let now = standing(runner, &scales);
-        let mut grown: Vec<f64> = now.iter().zip(&reached).map(|(a, b)| (a - b) / displaced()).collect();
+        let mut grown: Vec<f64> = now.iter().zip(&reached).map(|(a, b)| (a - b) / DISPLACED).collect();
         let before = dot(&grown, &grown).sqrt();
         // Twice: what rounding leaves of the first time is taken away the second.
         for _ in 0..2 {
@@ -137,7 +138,8 @@ fn largest_eigenvalue(mut power: Vec<Vec<f64>>) -> (f64, Vec<f64>) {
         power.iter_mut().flatten().for_each(|x| *x /= size);
         logarithm += size.ln() / 2.0_f64.powi(squaring);
         if squaring < SQUARINGS {
-            let entry = |row: usize, column: usize| (0..count).map(|k| power[row][k] * power[k][column]).sum();
+            let entry =
+                |row: usize, column: usize| (0..count).map(|k| power[row][k] * power[k][column]).sum();
             power = (0..count).map(|row| (0..count).map(|column| entry(row, column)).collect()).collect();
         }
     }
@@ -147,7 +149,6 @@ fn largest_eigenvalue(mut power: Vec<Vec<f64>>) -> (f64, Vec<f64>) {
     (logarithm.exp(), longest.unwrap_or_default())
 }
 
-fn displaced()->f64{std::env::var("LWD").map_or(DISPLACED,|x|x.parse().unwrap())}
 fn unit(vector: Vec<f64>) -> Vec<f64> {
     let size = dot(&vector, &vector).sqrt();
     vector.iter().map(|x| x / size).collect()

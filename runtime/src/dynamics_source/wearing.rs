@@ -47,7 +47,11 @@ impl<'a> Wearing<'a> {
 
     /// How much room their journals have, by these joints [m].
     pub fn rooms(&self, joints: &[JointWear]) -> Vec<f64> {
-        self.joints.iter().zip(joints).map(|((_, unworn), joint)| joint.clearance.max(unworn + joint.wear)).collect()
+        self.joints
+            .iter()
+            .zip(joints)
+            .map(|((_, unworn), joint)| joint.clearance.max(unworn + joint.wear))
+            .collect()
     }
 
     /// By how much of its wear a turn differs from the one before, of the joint where that is most.
@@ -62,7 +66,9 @@ impl<'a> Wearing<'a> {
 
     /// Whether a journal is loaded steadily in a turn.
     pub fn has_steady_load(&self, turn: &TurnMeasures) -> bool {
-        let is_steady = |measure: &ContactMeasure| measure.peak_force <= STEADY * measure.mean_force;
+        let is_steady = |measure: &ContactMeasure| {
+            measure.mean_force > 0.0 && measure.peak_force <= STEADY * measure.mean_force
+        };
         self.joints.iter().any(|(at, _)| is_steady(&turn.joints[*at]))
     }
 

@@ -48,8 +48,11 @@ impl TurnRunner<'_> {
         let motions = evaluator.contact_motion(self.t, &self.state.q, &self.state.v).to_vec();
         let mut by = by.iter();
         let (mut targets, mut rates) = (Vec::new(), Vec::new());
-        for (motion, law) in motions.as_chunks::<CONTACT_MOTION>().0.iter().zip(evaluator.clearances().joints()) {
-            let [mut offset, mut rate] = [0, 3].map(|from| [motion[from], motion[from + 1], motion[from + 2]]);
+        for (motion, law) in
+            motions.as_chunks::<CONTACT_MOTION>().0.iter().zip(evaluator.clearances().joints())
+        {
+            let [mut offset, mut rate] =
+                [0, 3].map(|from| [motion[from], motion[from + 1], motion[from + 2]]);
             for (axis, [to, faster]) in (0..law.freedoms()).zip(&mut by) {
                 offset[axis] += to;
                 rate[axis] += faster;
