@@ -171,6 +171,9 @@ impl<'a> DynamicsSource<'a> {
             let ratio = (unworn + worn) / (unworn + before);
             far = far.max(ratio).max(1.0 / ratio);
         }
+        for _ in 0..from.map_or(0, |orbit| orbit.lasting) {
+            self.turn((0.0, 0.0))?;
+        }
         let settling = Settling::new(from, far, self.settings.settled());
         Ok(Measuring::new(&self.settings, settling, self.wearing.rooms(joints)))
     }

@@ -3,6 +3,7 @@
 
 use super::settings::RevolutionSettings;
 use super::settling::{Orbit, Settling};
+use super::stability::Left;
 use super::steadiness::Steadiness;
 use super::wearing::Wearing;
 use crate::simulate::{RunWarning, TurnMeasures, TurnState};
@@ -109,9 +110,9 @@ impl Measuring {
     }
 
     /// That was tried. If the motion has left, with what is doubtful about it, it is measured anew.
-    pub fn is_tried(&mut self, left: Option<Option<RunWarning>>) {
-        self.settling.is_tried(self.rooms.clone(), left.is_some());
-        if let Some(doubts) = left {
+    pub fn is_tried(&mut self, left: Option<Left>) {
+        self.settling.is_tried(self.rooms.clone(), left.as_ref());
+        if let Some(Left { doubts, .. }) = left {
             (self.stage, self.done, self.last, self.doubts) = (Stage::Settles, 0, None, doubts);
             self.turns.clear();
         }
@@ -121,8 +122,8 @@ impl Measuring {
     pub fn end(self, turn: TurnState, wearing: &Wearing<'_>) -> Done {
         let steadiness = wearing.steadiness(self.last.as_ref(), &self.turns).collect();
         let measured = wearing.mean(&self.turns);
-        let (contraction, tried) = (self.settling.contraction(), self.settling.tried(self.rooms));
-        let orbit = Orbit { turn, contraction, tried };
+        let (contraction, lasting) = (self.settling.contraction(), self.settling.lasting());
+        let orbit = Orbit { turn, contraction, tried: self.settling.tried(self.rooms), lasting };
         Done { measured, steadiness, orbit, turns: self.turns, doubts: self.doubts }
     }
 }

@@ -4,6 +4,7 @@
 //! A motion settles by a factor a turn: of some fifty for a tight joint of the case study, of two or three for a loose one. So the
 //! difference of two turns tells that of the second from all later ones, once the factor is known.
 
+use super::stability::Left;
 use crate::linear::largest_of;
 use crate::simulate::TurnState;
 
@@ -40,6 +41,10 @@ pub struct Orbit {
     /// How much room journals had [m] when the motion was last seen to be one that a displacement does not take it from; none if never.
     #[cfg_attr(feature = "serde", serde(default))]
     pub tried: Vec<f64>,
+    /// Turns that are run after each change of wear before any is looked at: of a swing that has grown out of an unstable motion, whose
+    /// turns may be alike long before it has got over that.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub lasting: u32,
 }
 
 /// The settling of one measurement.
@@ -53,6 +58,7 @@ pub(super) struct Settling {
     last: Option<f64>,
     /// What is known of the motion's stability, and whether this measurement needs more.
     tried: Vec<f64>,
+    lasting: u32,
 }
 
 impl Settling {
@@ -62,7 +68,7 @@ impl Settling {
         let grown = if far > 1.0 + FAR { far.powi(FAR_POWER) } else { 1.0 };
         let known = from.map_or(1.0, |orbit| (grown * orbit.contraction).min(1.0));
         let tried = from.map_or_else(Vec::new, |orbit| orbit.tried.clone());
-        Self { settled, known, seen: None, last: None, tried }
+        Self { settled, known, seen: None, last: None, tried, lasting: from.map_or(0, |orbit| orbit.lasting) }
     }
 
     /// Whether a turn counts that differs by these parts of its wear from the one before; what is no number has not settled.
@@ -91,11 +97,16 @@ impl Settling {
     }
 
     /// It was tried whether the motion comes back to itself with so much room [m]; where it has left, turns settle anew.
-    pub(super) fn is_tried(&mut self, rooms: Vec<f64>, has_left: bool) {
+    pub(super) fn is_tried(&mut self, rooms: Vec<f64>, left: Option<&Left>) {
         self.tried = rooms;
-        if has_left {
-            (self.known, self.seen, self.last) = (1.0, None, None);
+        if let Some(left) = left {
+            (self.known, self.seen, self.last, self.lasting) = (1.0, None, None, left.lasting);
         }
+    }
+
+    /// Turns before any is looked at, after later changes of wear.
+    pub(super) const fn lasting(&self) -> u32 {
+        self.lasting
     }
 
     /// With how much room [m] the motion was last seen to come back to itself, if it had so much now.
@@ -126,7 +137,7 @@ mod tests {
         assert!(first.has_settled([2e-5].into_iter()));
         assert_eq!(first.contraction(), 0.25);
         let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
-        let from = |contraction| Orbit { turn: turn.clone(), contraction, tried: vec![] };
+        let from = |contraction| Orbit { turn: turn.clone(), contraction, tried: vec![], lasting: 0 };
         let mut next = Settling::new(Some(&from(0.02)), 1.1, 1e-5);
         // 2 times 0.03 times 1e-4.
         assert!(next.has_settled([1e-4].into_iter()) && next.contraction() == 0.03);

@@ -35,6 +35,9 @@ const PUSHED: f64 = 0.1;
 /// It has grown to all that it will, and settled there, in the turns in which a displacement would grow by the exponential of this: five
 /// to fill the clearance, as many to come to rest in its lasting swing.
 const FULL: f64 = 10.0;
+/// The swing that lasts gets over a change of wear in the turns in which a displacement of the steady motion would grow by the
+/// exponential of this: near it, amplitudes go back twice as fast as small ones grow, to 1/400 of what a wear step changes.
+const OVER: f64 = 3.0;
 /// Turns at most: those of a steady load take a millisecond or some.
 const MOST_TURNS: f64 = 3000.0;
 
@@ -46,15 +49,21 @@ struct Growth {
     direction: Vec<f64>,
 }
 
-/// If a motion between two turns does not come back to itself: goes on until it has got where it goes, and tells what is doubtful about
-/// that. If it does, the runner stays where it is.
+/// A motion that was left.
+#[derive(Debug)]
+pub(super) struct Left {
+    /// Turns in which the motion that was found instead gets over a change of wear.
+    pub lasting: u32,
+    /// What is doubtful about where it has got to.
+    pub doubts: Option<RunWarning>,
+}
+
+/// If a motion between two turns does not come back to itself: goes on until it has got where it goes. If it does, the runner stays
+/// where it is.
 ///
 /// # Errors
 /// As [`TurnRunner::measure`].
-pub(super) fn leave(
-    runner: &mut TurnRunner<'_>,
-    watch: Watch<'_>,
-) -> Result<Option<Option<RunWarning>>, RunError> {
+pub(super) fn leave(runner: &mut TurnRunner<'_>, watch: Watch<'_>) -> Result<Option<Left>, RunError> {
     let begin = runner.state();
     let method = runner.go_by(runner.method().at_least(EXACT));
     let growth = growth(runner, &begin, watch);
@@ -72,8 +81,9 @@ pub(super) fn leave(
     for _ in 0..turns.min(MOST_TURNS) as u32 {
         runner.measure(watch)?;
     }
-    let unsettled = turns > MOST_TURNS;
-    Ok(Some(unsettled.then_some(RunWarning::GrowsSlowly { turns: 1.0 / folds, ran: MOST_TURNS as u32 })))
+    let slow = RunWarning::GrowsSlowly { turns: 1.0 / folds, ran: MOST_TURNS as u32 };
+    let lasting = (OVER / folds).min(MOST_TURNS).ceil() as u32;
+    Ok(Some(Left { lasting, doubts: (turns > MOST_TURNS).then_some(slow) }))
 }
 
 /// The growth in the turn from a state; nothing where journals cannot be displaced.
