@@ -42,7 +42,8 @@ area = "projected"
 fn measured<const N: usize>(text: &str, settle: (Option<u32>, u32), grown: [f64; N]) -> [Vec<Steadiness>; N] {
     let source = SourceFile { name: "bearing.toml".to_owned(), text: text.to_owned() };
     let mechanism = Mechanism::compile(&source, &Options::default(), Backend::Auto).expect("it compiles");
-    let settings = RevolutionSettings { settle: settle.0, average: settle.1, ..RevolutionSettings::default() };
+    let settings =
+        RevolutionSettings { settle: settle.0, average: settle.1, ..RevolutionSettings::default() };
     let system = mechanism.system();
     let source = DynamicsSource::new(&*system, &mechanism.description, &mechanism.parameters, settings);
     let mut source = source.expect("a start");
@@ -92,12 +93,26 @@ fn a_journal_that_tilts_swings_as_it_does_after_hundreds_of_turns() {
 
 #[test]
 fn a_swing_that_grows_in_hundreds_of_turns_is_met_and_kept_as_the_joint_wears() {
-    // Of a bush that turns about its pin a displacement grows by a factor e in some 250 turns.
-    let text = rotor("friction = 0.3").replace("[\"ground\", \"b\"]", "[\"b\", \"ground\"]");
-    let [unworn, worn] = measured(&text, (None, 20), [1.0, 1.1]);
-    let [long, long_worn] = measured(&text, (Some(4000), 20), [1.0, 1.1]);
-    for (now, long) in [(&unworn, &long), (&worn, &long_worn)] {
-        let off = now[0].wear / long[0].wear - 1.0;
-        assert!(off.abs() < 1e-3, "{off:e} {now:?} {long:?}");
+    // Of a bush that turns about its pin a displacement grows by a factor e in some 250 turns, and its swing wears by 0.3 % more than
+    // its steady place. Twenty turns of it tell its mean to a thousandth.
+    let mut text = rotor("friction = 0.2");
+    for (from, to) in [
+        ("[\"ground\", \"b\"]", "[\"b\", \"ground\"]"),
+        ("\"5 kg\"", "\"50 kg\""),
+        ("pi*5*t", "pi*10*t"),
+        ("radial = \"50 um\"", "radial = \"20 um\""),
+        ("\"100 GPa\"", "\"110 GPa\""),
+        ("restitution = 0.5", "restitution = 0.9"),
+    ] {
+        assert!(text.contains(from), "{from}");
+        text = text.replace(from, to);
+    }
+    let grown = [1.0, 1.1, 1.2];
+    let steady = measured(&text, (Some(2), 1), grown);
+    let swings = measured(&text, (None, 20), grown);
+    let long = measured(&text, (Some(4000), 20), grown);
+    for ((steady, now), long) in steady.iter().zip(&swings).zip(&long) {
+        let [more, off] = [steady, long].map(|other| now[0].wear / other[0].wear - 1.0);
+        assert!(off.abs() < 1.5e-3 && more > 2e-3, "{off:e} {more:e} {now:?} {long:?}");
     }
 }
