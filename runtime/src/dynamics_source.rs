@@ -1,6 +1,7 @@
 //! The fine scale of a life by the equations of motion themselves. In: a mechanism, how a revolution is run.
 //! Out: what one settled revolution wears at a given state of wear. Never knows cycles, draws or thresholds.
 
+mod leaving;
 mod measuring;
 mod settings;
 mod settling;
@@ -20,6 +21,7 @@ use crate::simulate::{
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::ContactMeasure;
+use leaving::leaves;
 use measuring::{Done, Measuring};
 pub use settings::RevolutionSettings;
 pub use settling::Orbit;
@@ -238,20 +240,6 @@ impl<'a> DynamicsSource<'a> {
             }
         }
     }
-}
-
-/// Whether a measurement has to be made again whose turns agree for want of anything that would take them apart: the runner, at the end
-/// of its last turn, is then where the motion goes.
-fn leaves(
-    runner: &mut TurnRunner<'_>,
-    measuring: &mut Measuring,
-    watch: Watch<'_>,
-) -> Result<bool, RunError> {
-    let (from, _) = measuring.next();
-    let left = stability::leave(runner, watch.piece(from, from))?;
-    let has_left = left.is_some();
-    measuring.is_tried(left);
-    Ok(has_left)
 }
 
 impl WearSource for DynamicsSource<'_> {

@@ -3,7 +3,7 @@
 
 use std::collections::VecDeque;
 
-use super::leaves;
+use super::leaving::leaves;
 use super::measuring::Measuring;
 use super::wearing::Wearing;
 use crate::error::RunError;
