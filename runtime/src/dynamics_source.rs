@@ -1,10 +1,12 @@
 //! The fine scale of a life by the equations of motion themselves. In: a mechanism, how a revolution is run.
 //! Out: what one settled revolution wears at a given state of wear. Never knows cycles, draws or thresholds.
 
+mod leaving;
 mod measuring;
 mod settings;
 mod settling;
 mod side_by_side;
+mod stability;
 mod steadiness;
 mod wearing;
 
@@ -19,6 +21,7 @@ use crate::simulate::{
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::ContactMeasure;
+use leaving::leaves;
 use measuring::{Done, Measuring};
 pub use settings::RevolutionSettings;
 pub use settling::Orbit;
@@ -170,7 +173,11 @@ impl<'a> DynamicsSource<'a> {
             let ratio = (unworn + worn) / (unworn + before);
             far = far.max(ratio).max(1.0 / ratio);
         }
-        Ok(Measuring::new(&self.settings, Settling::new(from, far, self.settings.settled())))
+        for _ in 0..from.map_or(0, |orbit| orbit.lasting) {
+            self.turn((0.0, 0.0))?;
+        }
+        let settling = Settling::new(from, far, self.settings.settled());
+        Ok(Measuring::new(&self.settings, settling, self.wearing.rooms(joints)))
     }
 
     /// Runs one turn, as a part of a measurement.
@@ -207,7 +214,9 @@ impl<'a> DynamicsSource<'a> {
     fn all_turns(&mut self, measuring: &mut Measuring) -> Result<(), RunError> {
         loop {
             let turn = self.turn(measuring.next())?;
-            if measuring.take(turn, &self.wearing) {
+            let is_done = measuring.take(turn, &self.wearing);
+            let is_open = is_done && measuring.shows_nothing(&self.wearing);
+            if is_done && !(is_open && leaves(&mut self.runner, measuring, self.watch)?) {
                 return Ok(());
             }
         }
@@ -216,13 +225,13 @@ impl<'a> DynamicsSource<'a> {
     /// What a measurement has come to; its state is where the next one goes on.
     fn end(&mut self, done: Done, state: &mut Option<Orbit>) -> Vec<ContactMeasure> {
         *state = Some(done.orbit);
-        self.note(&done.turns);
+        self.note(done.doubts.iter().chain(done.turns.iter().flat_map(|turn| &turn.warnings)));
         self.steadiness.push(done.steadiness);
         done.measured
     }
 
-    fn note(&mut self, turns: &[TurnMeasures]) {
-        for warning in turns.iter().flat_map(|turn| &turn.warnings) {
+    fn note<'w>(&mut self, warnings: impl Iterator<Item = &'w RunWarning>) {
+        for warning in warnings {
             // Told once a kind: the figures change from turn to turn.
             let same =
                 |known: &RunWarning| core::mem::discriminant(known) == core::mem::discriminant(warning);

@@ -3,9 +3,10 @@
 
 use super::settings::RevolutionSettings;
 use super::settling::{Orbit, Settling};
+use super::stability::Left;
 use super::steadiness::Steadiness;
 use super::wearing::Wearing;
-use crate::simulate::{TurnMeasures, TurnState};
+use crate::simulate::{RunWarning, TurnMeasures, TurnState};
 use crate::wear::ContactMeasure;
 
 /// A motion whose turns have not settled at this one is taken as one that never does, ...
@@ -21,12 +22,16 @@ pub(super) struct Measuring {
     settle: Option<u32>,
     average: usize,
     settling: Settling,
+    /// How much room journals have [m].
+    rooms: Vec<f64>,
     stage: Stage,
     done: u32,
     /// The last turn that settled.
     last: Option<TurnMeasures>,
     /// Those that are measured.
     turns: Vec<TurnMeasures>,
+    /// What is doubtful about where the motion has got to.
+    doubts: Option<RunWarning>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -45,15 +50,16 @@ pub(super) struct Done {
     pub orbit: Orbit,
     /// The turns that it is the mean of.
     pub turns: Vec<TurnMeasures>,
+    pub doubts: Option<RunWarning>,
 }
 
 impl Measuring {
-    /// Of a motion that goes on from an orbit, or begins.
-    pub fn new(settings: &RevolutionSettings, settling: Settling) -> Self {
+    /// Of a motion that goes on from an orbit, or begins, with journals that have so much room [m].
+    pub fn new(settings: &RevolutionSettings, settling: Settling, rooms: Vec<f64>) -> Self {
         let average = settings.average.max(1) as usize;
         let stage = if settings.settle == Some(0) { Stage::IsSettled } else { Stage::Settles };
         let (settle, last, turns) = (settings.settle, None, Vec::new());
-        Self { settle, average, settling, stage, done: 0, last, turns }
+        Self { settle, average, settling, rooms, stage, done: 0, last, turns, doubts: None }
     }
 
     /// The part of the measurement that the next turn is, from and to. Where nobody knows how many there will be, every turn is half of
@@ -96,11 +102,28 @@ impl Measuring {
         count >= self.average && enough
     }
 
+    /// Whether it is done by turns that agreed at once, though nothing tells that the motion would come back to itself.
+    pub fn shows_nothing(&self, wearing: &Wearing<'_>) -> bool {
+        self.settle.is_none()
+            && self.settling.shows_nothing(&self.rooms)
+            && self.turns.last().is_some_and(|turn| wearing.has_steady_load(turn))
+    }
+
+    /// That was tried. If the motion has left, with what is doubtful about it, it is measured anew.
+    pub fn is_tried(&mut self, left: Option<Left>) {
+        self.settling.is_tried(self.rooms.clone(), left.as_ref());
+        if let Some(Left { doubts, .. }) = left {
+            (self.stage, self.done, self.last, self.doubts) = (Stage::Settles, 0, None, doubts);
+            self.turns.clear();
+        }
+    }
+
     /// What it has come to, at the end of its last turn.
     pub fn end(self, turn: TurnState, wearing: &Wearing<'_>) -> Done {
         let steadiness = wearing.steadiness(self.last.as_ref(), &self.turns).collect();
         let measured = wearing.mean(&self.turns);
-        let orbit = Orbit { turn, contraction: self.settling.contraction() };
-        Done { measured, steadiness, orbit, turns: self.turns }
+        let (contraction, lasting) = (self.settling.contraction(), self.settling.lasting());
+        let orbit = Orbit { turn, contraction, tried: self.settling.tried(self.rooms), lasting };
+        Done { measured, steadiness, orbit, turns: self.turns, doubts: self.doubts }
     }
 }

@@ -4,6 +4,7 @@
 //! A motion settles by a factor a turn: of some fifty for a tight joint of the case study, of two or three for a loose one. So the
 //! difference of two turns tells that of the second from all later ones, once the factor is known.
 
+use super::stability::Left;
 use crate::linear::largest_of;
 use crate::simulate::TurnState;
 
@@ -24,6 +25,11 @@ const FORGETS: f64 = 0.25;
 const FAR: f64 = 0.2;
 const FAR_POWER: i32 = 4;
 
+/// Turns that come nearer to each other by this factor are those of a motion that comes back to itself.
+const COMES_BACK: f64 = 0.5;
+/// What was seen of that counts until a journal has so many times as much room: laws of contact go by it smoothly.
+const GROWN: f64 = 1.25;
+
 /// What a life's motion goes on from.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
@@ -32,6 +38,13 @@ pub struct Orbit {
     pub turn: TurnState,
     /// By which factor turns differ less than the ones before, at most 1.
     pub contraction: f64,
+    /// How much room journals had [m] when the motion was last seen to be one that a displacement does not take it from; none if never.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub tried: Vec<f64>,
+    /// Turns that are run after each change of wear before any is looked at: of a swing that has grown out of an unstable motion, whose
+    /// turns may be alike long before it has got over that.
+    #[cfg_attr(feature = "serde", serde(default))]
+    pub lasting: u32,
 }
 
 /// The settling of one measurement.
@@ -43,6 +56,9 @@ pub(super) struct Settling {
     /// The largest seen.
     seen: Option<f64>,
     last: Option<f64>,
+    /// What is known of the motion's stability, and whether this measurement needs more.
+    tried: Vec<f64>,
+    lasting: u32,
 }
 
 impl Settling {
@@ -51,7 +67,8 @@ impl Settling {
     pub(super) fn new(from: Option<&Orbit>, far: f64, settled: f64) -> Self {
         let grown = if far > 1.0 + FAR { far.powi(FAR_POWER) } else { 1.0 };
         let known = from.map_or(1.0, |orbit| (grown * orbit.contraction).min(1.0));
-        Self { settled, known, seen: None, last: None }
+        let tried = from.map_or_else(Vec::new, |orbit| orbit.tried.clone());
+        Self { settled, known, seen: None, last: None, tried, lasting: from.map_or(0, |orbit| orbit.lasting) }
     }
 
     /// Whether a turn counts that differs by these parts of its wear from the one before; what is no number has not settled.
@@ -69,6 +86,32 @@ impl Settling {
     /// Whether the last turn is nearly settled: it counts alone, where no further one is run to settle.
     pub(super) fn has_nearly_settled(&self) -> bool {
         self.last.is_some_and(|differs| differs <= NEARLY * self.settled)
+    }
+
+    /// Whether the first two turns agreed at once, in a motion that was never seen to come back to itself where journals had so much
+    /// room [m].
+    pub(super) fn shows_nothing(&self, rooms: &[f64]) -> bool {
+        let agreed = self.seen.is_none() && self.last.is_some_and(|differs| differs <= self.settled);
+        let grown = |(now, then): (&f64, &f64)| *now > GROWN * then;
+        agreed && (self.tried.len() != rooms.len() || rooms.iter().zip(&self.tried).any(grown))
+    }
+
+    /// It was tried whether the motion comes back to itself with so much room [m]; where it has left, turns settle anew.
+    pub(super) fn is_tried(&mut self, rooms: Vec<f64>, left: Option<&Left>) {
+        self.tried = rooms;
+        if let Some(left) = left {
+            (self.known, self.seen, self.last, self.lasting) = (1.0, None, None, left.lasting);
+        }
+    }
+
+    /// Turns before any is looked at, after later changes of wear.
+    pub(super) const fn lasting(&self) -> u32 {
+        self.lasting
+    }
+
+    /// With how much room [m] the motion was last seen to come back to itself, if it had so much now.
+    pub(super) fn tried(&self, rooms: Vec<f64>) -> Vec<f64> {
+        if self.seen.is_some_and(|factor| factor < COMES_BACK) { rooms } else { self.tried.clone() }
     }
 
     /// The factor to go on with.
@@ -94,7 +137,7 @@ mod tests {
         assert!(first.has_settled([2e-5].into_iter()));
         assert_eq!(first.contraction(), 0.25);
         let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
-        let from = |contraction| Orbit { turn: turn.clone(), contraction };
+        let from = |contraction| Orbit { turn: turn.clone(), contraction, tried: vec![], lasting: 0 };
         let mut next = Settling::new(Some(&from(0.02)), 1.1, 1e-5);
         // 2 times 0.03 times 1e-4.
         assert!(next.has_settled([1e-4].into_iter()) && next.contraction() == 0.03);

@@ -3,6 +3,7 @@
 
 use std::collections::VecDeque;
 
+use super::leaving::leaves;
 use super::measuring::Measuring;
 use super::wearing::Wearing;
 use crate::error::RunError;
@@ -72,7 +73,7 @@ impl<'a> SideBySide<'_, 'a> {
                     TurnOutcome::Done(done) => {
                         let (turn, state) = *done;
                         one.at = state;
-                        one.measuring.take(turn, self.wearing)
+                        one.measuring.take(turn, self.wearing) && !self.leaves(one)?
                     }
                     TurnOutcome::Alone => self.alone(one)?,
                 };
@@ -92,6 +93,19 @@ impl<'a> SideBySide<'_, 'a> {
         self.runner.restore(&one.at)?;
         let turn = self.runner.measure(self.watch)?;
         one.at = self.runner.state();
-        Ok(one.measuring.take(turn, self.wearing))
+        Ok(one.measuring.take(turn, self.wearing) && !self.leaves(one)?)
+    }
+
+    /// Whether one that is done has to be made again.
+    fn leaves(&mut self, one: &mut Begun) -> Result<bool, RunError> {
+        if !one.measuring.shows_nothing(self.wearing) {
+            return Ok(false);
+        }
+        self.runner.restore(&one.at)?;
+        let leaves = leaves(self.runner, &mut one.measuring, self.watch)?;
+        if leaves {
+            one.at = self.runner.state();
+        }
+        Ok(leaves)
     }
 }

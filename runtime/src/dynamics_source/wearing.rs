@@ -7,6 +7,10 @@ use crate::linear::largest_of;
 use crate::simulate::TurnMeasures;
 use crate::wear::ContactMeasure;
 
+/// A load whose peak is no larger than so many times its mean holds a journal where it is; any other moves it, so that what grows shows
+/// in turns that differ.
+const STEADY: f64 = 1.1;
+
 /// The joints of a mechanism that wear.
 pub(super) struct Wearing<'a> {
     /// That of the mechanism.
@@ -41,6 +45,15 @@ impl<'a> Wearing<'a> {
         self.joints.iter().map(joint).collect()
     }
 
+    /// How much room their journals have, by these joints [m].
+    pub fn rooms(&self, joints: &[JointWear]) -> Vec<f64> {
+        self.joints
+            .iter()
+            .zip(joints)
+            .map(|((_, unworn), joint)| joint.clearance.max(unworn + joint.wear))
+            .collect()
+    }
+
     /// By how much of its wear a turn differs from the one before, of the joint where that is most.
     pub fn differs(&self, last: &TurnMeasures, now: &TurnMeasures) -> f64 {
         let part = |(at, _): &(usize, f64)| {
@@ -49,6 +62,14 @@ impl<'a> Wearing<'a> {
             if now == last { 0.0 } else { ((now - last) / now).abs() }
         };
         largest_of(self.joints.iter().map(part))
+    }
+
+    /// Whether a journal is loaded steadily in a turn.
+    pub fn has_steady_load(&self, turn: &TurnMeasures) -> bool {
+        let is_steady = |measure: &ContactMeasure| {
+            measure.mean_force > 0.0 && measure.peak_force <= STEADY * measure.mean_force
+        };
+        self.joints.iter().any(|(at, _)| is_steady(&turn.joints[*at]))
     }
 
     /// How steady turns are, joint by joint, beside one before them.

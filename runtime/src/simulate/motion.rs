@@ -243,6 +243,11 @@ impl<'a> ConstrainedMotion<'a> {
         }
     }
 
+    /// Work of wear of all contacts until a flat state [J].
+    pub(super) fn worn(&self, y: &[f64]) -> f64 {
+        self.totals(y).map(|totals| totals.wear).sum()
+    }
+
     /// Penetration of one contact at a flat state [m].
     pub(super) fn penetration(&mut self, joint: usize, t: f64, y: &[f64]) -> f64 {
         let (q, v) = y[..self.first_integral()].split_at(self.coordinates);

@@ -230,7 +230,7 @@ impl<'a> Sampler<'a> {
             return Err(RunError::NonFinite { t, what: "energy".to_owned() });
         }
         let tried = self.statistics.steps + self.statistics.rejected;
-        self.guard.check_step(motion, (t, tried), &mut self.ledger)?;
+        self.guard.check_step(motion, (t, tried), (state, &mut self.ledger))?;
         self.reached.0 = t;
         self.reached.1.copy_from_slice(state);
         self.look(motion, (t, state), known)

@@ -103,6 +103,23 @@ impl Integrator {
             Self::Rk4 { .. } | Self::GeneralizedAlpha { .. } => None,
         }
     }
+
+    /// The same, as exact as this at least, if it chooses its steps.
+    pub(crate) fn at_least(self, tight: f64) -> Self {
+        match self {
+            Self::Dopri5 { tolerance, max_step } => {
+                Self::Dopri5 { tolerance: tolerance.min(tight), max_step }
+            }
+            Self::Rodas5P { tolerance, max_step } => {
+                Self::Rodas5P { tolerance: tolerance.min(tight), max_step }
+            }
+            Self::Switching { tolerance, max_step } => {
+                Self::Switching { tolerance: tolerance.min(tight), max_step }
+            }
+            Self::Rk43 { tolerance, max_step } => Self::Rk43 { tolerance: tolerance.min(tight), max_step },
+            Self::Rk4 { .. } | Self::GeneralizedAlpha { .. } => self,
+        }
+    }
 }
 
 /// Length of a run or of its settling.

@@ -1,6 +1,8 @@
 //! Runs one mechanism turn by turn, for a life in which wear changes the clearances in between.
 //! In: a mechanism, a method, clearances. Out: [`ContactMeasure`]s. Never knows how wear follows from them.
 
+mod journals;
+
 use std::f64::consts::PI;
 
 use super::motion::ConstrainedMotion;

@@ -63,6 +63,13 @@ pub enum RunWarning {
         /// Columns that the loops leave open there.
         columns: Vec<String>,
     },
+    /// A journal does not run steadily, and leaves that so slowly that turns do not show where it gets to.
+    GrowsSlowly {
+        /// Turns in which a swing grows by a factor e.
+        turns: f64,
+        /// Turns that were run before one was measured.
+        ran: u32,
+    },
     /// The bodies were apart for most of a turn.
     ContactLost {
         /// The joint.
@@ -114,6 +121,11 @@ impl fmt::Display for RunWarning {
                 "at t = {t:.6} s the mechanism stands in a singular position, at rest or at a dead point: the loops leave open \
                  how large {} there, and rows hold the smallest forces that fit; let it stop a little beside it",
                 listed(columns, ["is", "are"])
+            ),
+            Self::GrowsSlowly { turns, ran } => write!(
+                f,
+                "journals do not run steadily here: a small swing grows, by a factor e in {turns:.0} turns, and after the {ran} turns \
+                 that were run it may still grow; see where it gets to by a longer `--settle`"
             ),
             Self::ContactLost { joint, turn, touching_part } => write!(
                 f,

@@ -44,7 +44,7 @@ impl Sampler<'_> {
         }
         run.warnings.extend(self.unbounded.warnings(&run.channels));
         run.warnings.extend(warning::rounded_angle(motion.angles(&self.reached.1)));
-        if run.stopped.is_none() && is_doubtful(&self.ledger) {
+        if run.stopped.is_none() && is_doubtful(&self.ledger, motion.worn(&self.reached.1)) {
             let Statistics { energy_error_J: error, energy_throughput_J: throughput, .. } = run.statistics;
             run.warnings.push(RunWarning::EnergyOff { error, throughput });
         }
