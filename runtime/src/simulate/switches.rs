@@ -1,9 +1,10 @@
 //! Locates where a formula changes its piece within an adaptive step, and ends the step there. In: accepted steps. Out: steps that lie
-//! on one side. Never knows formulas: conditions are columns, and the side is their sign.
+//! on one side. Never knows formulas: conditions are columns, and the side is their sign; of tables it is the row
+//! that their arguments have passed.
 //!
-//! A step across a jump mixes both sides, and one across a kink has an order less. So a step in which a condition changes its sign
-//! ends before that place, and the next one begins behind it, at the state that the dense output has there: both are so close
-//! that what lies between does not count.
+//! A step across a jump mixes both sides, and one across a kink has an order less. So a step in which a condition changes its sign,
+//! or a table passes a row, ends before that place, and the next one begins behind it, at the state that the dense output has there:
+//! both are so close that what lies between does not count.
 
 use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
@@ -12,7 +13,7 @@ use crate::integrate::{Adaptive, Method};
 
 /// Accuracy of a place, as a part of the step.
 const LOCATED: f64 = 1e-12;
-/// Parts of a step at which signs are looked at: what changes twice in between is not seen.
+/// Parts of a step at which sides are looked at: what changes twice in between is not seen.
 const LOOKS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
 /// How far behind the end of a step the other side may begin, as parts of the step, and in last places of the time at least.
 const BEHIND: [(f64, f64); 5] = [(1e-12, 1.0), (1e-11, 4.0), (1e-10, 16.0), (1e-9, 64.0), (1e-8, 256.0)];
@@ -20,33 +21,64 @@ const BEHIND: [(f64, f64); 5] = [(1e-12, 1.0), (1e-11, 4.0), (1e-10, 16.0), (1e-
 const SHORTEST: f64 = 1e-7;
 /// How often a step is taken again: each time the places are as exact as the shorter step.
 const RETAKEN: usize = 4;
+/// Parts of the way from row to row. An argument that is nearer to a row than this where a step begins may rest there and pass it
+/// to and fro by rounding; a kink so near the begin is left to the error of the step.
+const AT_ROW: f64 = 1e-3;
 
-/// On which side the conditions are at part `at` of the last step.
+/// On which side of what changes pieces a state is.
+struct Sides {
+    /// Of every condition, whether it is below zero.
+    below: Vec<bool>,
+    /// Of every table, how many rows its argument has passed.
+    rows: Vec<f64>,
+}
+
+impl Sides {
+    fn at(motion: &mut ConstrainedMotion<'_>, t: f64, y: &[f64]) -> Self {
+        let (q, v, _) = motion.split(y);
+        let [conditions, rows] = motion.dynamics.evaluator.pieces(t, q, v);
+        Self { below: conditions.iter().map(|value| *value < 0.0).collect(), rows: rows.to_vec() }
+    }
+
+    /// Whether the same pieces hold, to the last place.
+    fn are_those_of(&self, other: &Self) -> bool {
+        let same_row = |(a, b): (&f64, &f64)| a.floor() == b.floor();
+        self.below == other.below && self.rows.iter().zip(&other.rows).all(same_row)
+    }
+
+    /// Whether another piece begins on the way to here from the begin of a step.
+    fn are_beyond(&self, begin: &Self) -> bool {
+        let passed = |(from, to): (&f64, &f64)| {
+            let row = to.floor();
+            row > (from + AT_ROW).floor() || row < (from - AT_ROW).floor()
+        };
+        self.below != begin.below || begin.rows.iter().zip(&self.rows).any(passed)
+    }
+}
+
+/// On which side conditions and tables are at part `at` of the last step.
 fn sides<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     method: &Adaptive<M>,
     at: f64,
     between: &mut [f64],
-) -> (f64, Vec<bool>) {
+) -> Sides {
     let t = if at == 1.0 { method.t() } else { method.before() + at * (method.t() - method.before()) };
     method.interpolate(t, between);
-    (t, sides_at(motion, t, between))
+    Sides::at(motion, t, between)
 }
 
-fn sides_at(motion: &mut ConstrainedMotion<'_>, t: f64, y: &[f64]) -> Vec<bool> {
-    let (q, v, _) = motion.split(y);
-    motion.dynamics.evaluator.switches(t, q, v).iter().map(|value| *value < 0.0).collect()
-}
-
-/// Ends the last step of `method` where the first condition changes its sign within it.
+/// Ends the last step of `method` where the first condition changes its sign within it, or a table passes its first row; whether it
+/// was shortened.
 pub(super) fn stop_at_switch<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     sampler: &mut Sampler<'_>,
     method: &mut Adaptive<M>,
     between: &mut [f64],
-) -> Result<(), RunError> {
+) -> Result<bool, RunError> {
+    let mut is_shortened = false;
     if !motion.dynamics.evaluator.has_switches() {
-        return Ok(());
+        return Ok(is_shortened);
     }
     let shortest = 0.1 * SHORTEST * sampler.duration();
     for _ in 0..RETAKEN {
@@ -54,10 +86,10 @@ pub(super) fn stop_at_switch<M: Method>(
         if length <= shortest {
             break;
         }
-        let (_, known) = sides(motion, method, 0.0, between);
+        let known = sides(motion, method, 0.0, between);
         let mut low = 0.0;
         let Some(mut high) = LOOKS.into_iter().find(|part| {
-            let differs = sides(motion, method, *part, between).1 != known;
+            let differs = sides(motion, method, *part, between).are_beyond(&known);
             low = if differs { low } else { *part };
             differs
         }) else {
@@ -65,10 +97,10 @@ pub(super) fn stop_at_switch<M: Method>(
         };
         while high - low > LOCATED {
             let middle = 0.5 * (low + high);
-            if sides(motion, method, middle, between).1 == known {
-                low = middle;
-            } else {
+            if sides(motion, method, middle, between).are_beyond(&known) {
                 high = middle;
+            } else {
+                low = middle;
             }
         }
         let end = begin + low * length;
@@ -78,8 +110,9 @@ pub(super) fn stop_at_switch<M: Method>(
         }
         method.retake(motion, end)?;
         sampler.closing = None;
+        is_shortened = true;
     }
-    Ok(())
+    Ok(is_shortened)
 }
 
 /// Puts the begin of the next step, which ends at `stop` at the latest, behind a place that the last one ended at.
@@ -93,20 +126,20 @@ pub(super) fn cross<M: Method>(
     if length <= 0.0 || !motion.dynamics.evaluator.has_switches() {
         return Ok(());
     }
-    let known = sides_at(motion, method.t(), method.y());
+    let known = Sides::at(motion, method.t(), method.y());
     let end = method.t();
-    let mut last: Option<(f64, Vec<bool>)> = None;
+    let mut last: Option<(f64, Sides)> = None;
     for (part, places) in BEHIND {
         let t = end + (part * length).max(places * (end.next_up() - end));
         if t >= stop {
             break;
         }
         method.interpolate(t, between);
-        let sides = sides_at(motion, t, between);
+        let sides = Sides::at(motion, t, between);
         // Where several conditions change at once but for rounding, it is behind them all.
         if let Some((t, same)) = last.take()
-            && same != known
-            && same == sides
+            && !same.are_those_of(&known)
+            && same.are_those_of(&sides)
         {
             method.interpolate(t, between);
             return method.go_on_from(motion, t, between);

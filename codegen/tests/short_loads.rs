@@ -1,0 +1,243 @@
+//! Loads and motions much shorter than the steps around them, in mechanisms that are quiet before and after: each is met, and has its
+//! momentum.
+
+mod simulated;
+
+use linkwear_codegen::model::DataTable;
+use linkwear_codegen::spec::{Interpolation, Outside};
+use linkwear_runtime::{Integrator, Run, Settings, Span};
+use simulated::{at_end, compiled, run_with};
+
+const TOLERANCE: f64 = 1e-9;
+/// Every adaptive method; the last is what `simulate` takes where nothing has clearance.
+const ADAPTIVE: [Integrator; 4] = [
+    Integrator::Dopri5 { tolerance: TOLERANCE, max_step: None },
+    Integrator::Rodas5P { tolerance: TOLERANCE, max_step: None },
+    Integrator::Rk43 { tolerance: TOLERANCE, max_step: None },
+    Integrator::Switching { tolerance: TOLERANCE, max_step: None },
+];
+
+fn settings(span: f64, integrator: Integrator) -> Settings {
+    Settings { span: Span::Time(span), samples: 41, integrator, ..Settings::default() }
+}
+
+/// A block of 1 kg on a rail, pushed by a force; what stands before it and beside it.
+fn block(force: &str, beside: &str) -> String {
+    format!(
+        r#"gravity = [0, 0, 0]
+{beside}
+[points]
+O = [0, 0, 0]
+[bodies]
+a = {{ mass = "1 kg", centre = "O" }}
+[joints]
+X = {{ prismatic = ["ground", "a"], at = "O", axis = [1, 0, 0] }}
+[forces]
+push = {{ force = "a", at = "O", components = ["{force}", 0, 0] }}
+"#
+    )
+}
+
+#[test]
+fn a_pulse_by_conditions_or_laws_leaves_its_momentum() {
+    let by_if = |shape: &str| format!("if(t < 0.3 s, 0 N, if(t < 0.31 s, 1000 N*{shape}, 0 N))");
+    let by_law = |law: &str| format!("1000 N*({law}((t - 0.3 s)/(5 ms)) - {law}((t - 0.31 s)/(5 ms)))");
+    let phase = "pi*(t - 0.3 s)/(10 ms)";
+    let pi = std::f64::consts::PI;
+    // Momentum [N s]: mean of the shape times 10 N s; a law rises by one, and the same one takes it back 10 ms later. Middle of the
+    // pulse [s].
+    let pulses = [
+        (by_if(&format!("sin({phase})")), 20.0 / pi, 0.305),
+        (by_if(&format!("sin({phase})^2")), 5.0, 0.305),
+        (by_if(&format!("sin({phase})^4")), 3.75, 0.305),
+        (by_if(&format!("(1 - cos(8*{phase}))")), 10.0, 0.305),
+        (by_law("cycloidal"), 10.0, 0.3075),
+        (by_law("modified_sine"), 10.0, 0.3075),
+        (by_law("poly345"), 10.0, 0.3075),
+        (by_law("poly4567"), 10.0, 0.3075),
+        (by_law("trapezoid"), 10.0, 0.3075),
+    ];
+    for (force, momentum, middle) in pulses {
+        for integrator in ADAPTIVE {
+            let run = run_with(&block(&force, ""), &settings(2.0, integrator));
+            let exact = [momentum, momentum * (2.0 - middle)];
+            for (column, exact) in ["X.v", "X.q"].into_iter().zip(exact) {
+                let off = (at_end(&run, column) / exact - 1.0).abs();
+                // Ten times the tolerance: the pulse takes some ten steps.
+                assert!(off < 1e-8, "{force} {integrator:?}: {column} off by {off:e}");
+            }
+        }
+    }
+}
+
+/// Rows of a table, in its file and as a function.
+fn table(rows: &[(f64, f64)], unit: &str, how: &str, outside: &str) -> (String, DataTable) {
+    let list = |of: &dyn Fn(&(f64, f64)) -> String| rows.iter().map(of).collect::<Vec<_>>().join(", ");
+    let argument = list(&|(x, _)| format!("\"{x} {unit}\""));
+    let value = list(&|(_, y)| format!("\"{y} N\""));
+    let text = format!(
+        "[tables.load]\nargument = [{argument}]\nvalue = [{value}]\ninterpolation = \"{how}\"\noutside = \"{outside}\"\n"
+    );
+    let (interpolation, outside) = (
+        match how {
+            "linear" => Interpolation::Linear,
+            "monotone" => Interpolation::Monotone,
+            _ => Interpolation::Spline,
+        },
+        if outside == "periodic" { Outside::Periodic } else { Outside::Hold },
+    );
+    let (knots, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
+    (text, DataTable::new("load", (knots, &values), interpolation, outside))
+}
+
+/// Integral over all rows: by Simpson's rule, which is exact for cubics.
+fn integral(table: &DataTable) -> f64 {
+    let piece = |pair: &[f64]| {
+        let (from, to) = (pair[0], pair[1]);
+        // Just before a row, where a periodic table does not begin again.
+        let ends = table.of(from) + table.of(to - 1e-15 * to.abs());
+        (to - from) / 6.0 * (ends + 4.0 * table.of(0.5 * (from + to)))
+    };
+    table.knots.windows(2).map(piece).sum()
+}
+
+/// A blow of 10 ms, with rows at rest about it.
+const BLOW: [(f64, f64); 9] = [
+    (0.0, 0.0),
+    (0.3, 0.0),
+    (0.45, 0.0),
+    (0.49, 0.0),
+    (0.5, 0.0),
+    (0.505, 4000.0),
+    (0.51, 0.0),
+    (0.55, 0.0),
+    (2.0, 0.0),
+];
+
+#[test]
+fn a_blow_by_a_table_over_time_leaves_its_momentum() {
+    for how in ["linear", "monotone", "spline"] {
+        let (text, load) = table(&BLOW, "s", how, "hold");
+        let momentum = integral(&load);
+        if how != "spline" {
+            // The area of a triangle, and of two cubics with level ends.
+            assert!((momentum - 20.0).abs() < 1e-12);
+        }
+        for integrator in ADAPTIVE {
+            let run = run_with(&block("load(t)", &text), &settings(2.0, integrator));
+            let off = (at_end(&run, "X.v") / momentum - 1.0).abs();
+            // The tolerance: a polynomial between rows is met exactly but by a method of fourth order and less.
+            assert!(off < 1e-9, "{how} {integrator:?}: off by {off:e}");
+        }
+    }
+}
+
+#[test]
+fn a_periodic_table_over_time_strikes_in_every_period() {
+    let (text, load) = table(&BLOW, "s", "monotone", "periodic");
+    for integrator in ADAPTIVE {
+        let run = run_with(&block("load(t)", &text), &settings(20.0, integrator));
+        let off = (at_end(&run, "X.v") / (10.0 * integral(&load)) - 1.0).abs();
+        assert!(off < 1e-9, "{integrator:?}: off by {off:e}");
+    }
+}
+
+#[test]
+fn a_table_of_a_driven_angle_strikes_in_every_turn() {
+    let rows = [(0.0, 0.0), (90.0, 0.0), (91.0, 3000.0), (92.0, 0.0), (360.0, 0.0)];
+    let (text, load) = table(&rows, "deg", "linear", "periodic");
+    let crank = r#"[joints]
+R = { revolute = ["ground", "c"], at = "O", axis = [0, 0, 1], drive = "(100 deg/s)*t" }
+"#;
+    let file = block("load(R.q)", &text).replace("[joints]\n", crank);
+    let file = file.replace("[bodies]\n", "[bodies]\nc = { mass = \"1 kg\", centre = \"O\", inertia = [\"1 kg m^2\", \"1 kg m^2\", \"1 kg m^2\"] }\n");
+    for integrator in ADAPTIVE {
+        let run = run_with(&file, &settings(10.8, integrator));
+        // Three turns of 100 deg/s.
+        let off = (at_end(&run, "X.v") / (3.0 * integral(&load) / 100.0) - 1.0).abs();
+        assert!(off < 1e-9, "{integrator:?}: off by {off:e}");
+    }
+}
+
+#[test]
+fn a_table_over_a_place_is_met_by_what_flies_past_it() {
+    let rows = [(-1.0, 0.0), (0.5, 0.0), (0.501, 800.0), (0.502, 0.0), (9.0, 0.0)];
+    let (text, load) = table(&rows, "m", "monotone", "hold");
+    let file = block("load(X.q)", &text) + "[initial]\nX = { q = \"0 m\", v = \"1 m/s\" }\n";
+    for integrator in ADAPTIVE {
+        let run = run_with(&file, &settings(2.0, integrator));
+        // Half the square of the speed grows by the work.
+        let exact = (1.0 + 2.0 * integral(&load)).sqrt();
+        let off = (at_end(&run, "X.v") / exact - 1.0).abs();
+        // Ten times the tolerance: each half of the bump takes a few steps.
+        assert!(off < 1e-8, "{integrator:?}: off by {off:e}");
+    }
+}
+
+/// Largest distance between two runs in some columns.
+fn apart(one: &Run, other: &Run, columns: &[&str]) -> f64 {
+    let pairs = columns.iter().flat_map(|column| {
+        one.column(column).expect("a column").iter().zip(other.column(column).expect("a column"))
+    });
+    pairs.fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+}
+
+#[test]
+fn a_drive_by_a_table_after_a_dwell_moves_what_hangs_on_it() {
+    let hung = |how: &str| {
+        let rows = [0.0, 0.1, 0.2, 0.3, 0.302, 0.306, 0.31, 0.314, 0.318, 0.32, 0.6, 1.0, 2.0];
+        let rise = [0.0, 0.0, 0.0, 0.0, 0.0009, 0.016, 0.05, 0.084, 0.0991, 0.1, 0.1, 0.1, 0.1];
+        let list = |numbers: &[f64], unit: &str| {
+            numbers.iter().map(|x| format!("\"{x} {unit}\"")).collect::<Vec<_>>().join(", ")
+        };
+        format!(
+            r#"gravity = [0, 0, "-9.81 m/s^2"]
+[tables.rise]
+argument = [{}]
+value = [{}]
+interpolation = "{how}"
+[points]
+O = [0, 0, 0]
+P = [0, 0, "-1 m"]
+[bodies]
+a = {{ mass = "1 kg", centre = "O" }}
+b = {{ mass = "1 kg", centre = "P", inertia = ["0.1 kg m^2", "0.1 kg m^2", "0.1 kg m^2"] }}
+[joints]
+X = {{ prismatic = ["ground", "a"], at = "O", axis = [1, 0, 0], drive = "rise(t)" }}
+R = {{ revolute = ["a", "b"], at = "O", axis = [0, 1, 0] }}
+"#,
+            list(&rows, "s"),
+            list(&rise, "m")
+        )
+    };
+    for how in ["monotone", "spline"] {
+        // Steps that end at every row, of which the rise takes two hundred.
+        let fine = run_with(&hung(how), &settings(2.0, Integrator::Rk4 { step: 1e-4 }));
+        assert!(at_end(&fine, "R.q").abs() > 1e-3);
+        for integrator in ADAPTIVE {
+            let run = run_with(&hung(how), &settings(2.0, integrator));
+            let off = apart(&run, &fine, &["R.q", "R.v"]);
+            // What four significant stages of 1e-4 s leave at 1e6 rad/s^4 and less, and the tolerance over some hundred steps.
+            assert!(off < 1e-7, "{how} {integrator:?}: {off:e}");
+        }
+    }
+}
+
+#[test]
+fn rows_are_columns_where_their_argument_changes() {
+    let (text, _) = table(&BLOW, "s", "monotone", "periodic");
+    let run = run_with(&block("load(t)", &text), &settings(4.0, ADAPTIVE[0]));
+    let rows = run.column("t.row1").expect("one table");
+    let passed = |t: f64| {
+        let (periods, within) = ((t / 2.0).floor(), t % 2.0);
+        let at = BLOW[1..].iter().filter(|(row, _)| *row <= within).count();
+        8.0 * periods + at as f64 + (within - BLOW[at].0) / (BLOW[at + 1].0 - BLOW[at].0)
+    };
+    for (t, row) in run.times.iter().zip(rows) {
+        // Roundings of a time of up to four over rows of 5 ms.
+        assert!((*row - passed(*t)).abs() < 1e-12, "{t}: {row}");
+    }
+    let constant = "[parameters]\np = { value = \"0.2 s\", tunable = true }\n".to_owned() + &text;
+    let columns = |text: &str| compiled(text).description().channels.len();
+    assert_eq!(columns(&block("load(p)", &constant)) + 1, columns(&block("load(t)", &text)));
+}
