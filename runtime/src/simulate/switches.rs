@@ -4,12 +4,13 @@
 //!
 //! A step across a jump mixes both sides, and one across a kink has an order less. So a step in which a condition changes its sign,
 //! or a table passes a row, ends before that place, and the next one begins behind it, at the state that the dense output has there:
-//! both are so close that what lies between does not count.
+//! both are so close that what lies between does not count. Where time alone decides, the place is known before the step.
 
 use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use crate::error::RunError;
 use crate::integrate::{Adaptive, Method};
+use crate::linear::combine;
 
 /// Accuracy of a place, as a part of the step.
 const LOCATED: f64 = 1e-12;
@@ -21,6 +22,9 @@ const BEHIND: [(f64, f64); 5] = [(1e-12, 1.0), (1e-11, 4.0), (1e-10, 16.0), (1e-
 const SHORTEST: f64 = 1e-7;
 /// How often a step is taken again: each time the places are as exact as the shorter step.
 const RETAKEN: usize = 4;
+/// Part of a piece that its first step takes at most, where it might take it all: stages at simple parts of a piece see nothing of
+/// what swings in it a whole number of times. The golden section is as far from all of them as can be.
+const WITHIN_PIECE: f64 = 0.382;
 /// Parts of the way from row to row. An argument that is nearer to a row than this where a step begins may rest there and pass it
 /// to and fro by rounding; a kink so near the begin is left to the error of the step.
 const AT_ROW: f64 = 1e-3;
@@ -68,6 +72,58 @@ fn sides<M: Method>(
     Sides::at(motion, t, between)
 }
 
+/// Where the next step ends at the latest: where time alone makes another piece begin, whatever the state does until then. Such a
+/// place is known before a step that would leap over it, or be refused for it again and again. `stop`: the latest end by other
+/// reasons; `at_piece`: the step begins where a piece does.
+pub(super) fn stop_in_time<M: Method>(
+    motion: &mut ConstrainedMotion<'_>,
+    method: &mut Adaptive<M>,
+    (stop, at_piece): (f64, bool),
+    between: &mut [f64],
+) -> f64 {
+    if !motion.dynamics.evaluator.has_switches() {
+        return stop;
+    }
+    let (begin, (length, _)) = (method.t(), method.control().propose(stop));
+    let known = Sides::at(motion, begin, method.y());
+    let mut there = |part: f64, moves: bool| {
+        combine(between, method.y(), if moves { part * length } else { 0.0 }, method.slope());
+        Sides::at(motion, begin + part * length, between)
+    };
+    let Some((low, high)) = first_change(&known, |part| there(part, false)) else { return stop };
+    let is_of_time = !there(low, true).are_beyond(&known) && there(high, true).are_beyond(&known);
+    let end = begin + low * length;
+    if !is_of_time || is_at(begin, end) {
+        return stop;
+    }
+    let spans_piece = at_piece && there(high, false).below != known.below;
+    if spans_piece { begin + WITHIN_PIECE * (end - begin) } else { end }
+}
+
+/// The part of a step at which another piece begins first, from below and above.
+fn first_change(known: &Sides, mut sides: impl FnMut(f64) -> Sides) -> Option<(f64, f64)> {
+    let mut low = 0.0;
+    let mut high = LOOKS.into_iter().find(|part| {
+        let differs = sides(*part).are_beyond(known);
+        low = if differs { low } else { *part };
+        differs
+    })?;
+    while high - low > LOCATED {
+        let middle = 0.5 * (low + high);
+        if sides(middle).are_beyond(known) {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    Some((low, high))
+}
+
+/// Whether a place belongs to the begin of a step: what begins there is behind it already.
+fn is_at(begin: f64, place: f64) -> bool {
+    place - begin <= 4.0 * f64::EPSILON * place.abs()
+}
+
 /// Ends the last step of `method` where the first condition changes its sign within it, or a table passes its first row; whether it
 /// was shortened.
 pub(super) fn stop_at_switch<M: Method>(
@@ -87,25 +143,9 @@ pub(super) fn stop_at_switch<M: Method>(
             break;
         }
         let known = sides(motion, method, 0.0, between);
-        let mut low = 0.0;
-        let Some(mut high) = LOOKS.into_iter().find(|part| {
-            let differs = sides(motion, method, *part, between).are_beyond(&known);
-            low = if differs { low } else { *part };
-            differs
-        }) else {
-            break;
-        };
-        while high - low > LOCATED {
-            let middle = 0.5 * (low + high);
-            if sides(motion, method, middle, between).are_beyond(&known) {
-                high = middle;
-            } else {
-                low = middle;
-            }
-        }
+        let Some((low, _)) = first_change(&known, |part| sides(motion, method, part, between)) else { break };
         let end = begin + low * length;
-        // What belongs to the begin of a step is behind it already.
-        if end - begin <= 4.0 * f64::EPSILON * end.abs() {
+        if is_at(begin, end) {
             break;
         }
         method.retake(motion, end)?;
@@ -115,16 +155,17 @@ pub(super) fn stop_at_switch<M: Method>(
     Ok(is_shortened)
 }
 
-/// Puts the begin of the next step, which ends at `stop` at the latest, behind a place that the last one ended at.
+/// Puts the begin of the next step, which ends at `stop` at the latest, behind a place that the last one ended at; whether there was
+/// one.
 pub(super) fn cross<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     method: &mut Adaptive<M>,
     stop: f64,
     between: &mut [f64],
-) -> Result<(), RunError> {
+) -> Result<bool, RunError> {
     let length = method.t() - method.before();
     if length <= 0.0 || !motion.dynamics.evaluator.has_switches() {
-        return Ok(());
+        return Ok(false);
     }
     let known = Sides::at(motion, method.t(), method.y());
     let end = method.t();
@@ -142,9 +183,9 @@ pub(super) fn cross<M: Method>(
             && same.are_those_of(&sides)
         {
             method.interpolate(t, between);
-            return method.go_on_from(motion, t, between);
+            return method.go_on_from(motion, t, between).map(|()| true);
         }
         last = Some((t, sides));
     }
-    Ok(())
+    Ok(false)
 }
