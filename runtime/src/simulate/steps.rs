@@ -332,11 +332,11 @@ impl<M: Method + Send> StepsOfAnyLength for AdaptiveSteps<M> {
                 return if sampled { sampler.sample(motion, to, state) } else { Ok(()) };
             }
             let stop = stop_at_kink(motion, sampler, method.t());
-            let at_piece = switches::cross(motion, method, stop, between)?;
+            switches::cross(motion, method, stop, between)?;
             if to <= method.t() {
                 continue;
             }
-            let stop = switches::stop_in_time(motion, method, (stop, at_piece), between);
+            let stop = switches::stop_in_time(motion, method, stop, between);
             let outcome = method.step(motion, stop);
             sampler.statistics.rejected = method.rejected();
             sampler.statistics.implicit_steps = method.implicit_steps();

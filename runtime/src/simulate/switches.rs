@@ -74,11 +74,11 @@ fn sides<M: Method>(
 
 /// Where the next step ends at the latest: where time alone makes another piece begin, whatever the state does until then. Such a
 /// place is known before a step that would leap over it, or be refused for it again and again. `stop`: the latest end by other
-/// reasons; `at_piece`: the step begins where a piece does.
+/// reasons.
 pub(super) fn stop_in_time<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     method: &mut Adaptive<M>,
-    (stop, at_piece): (f64, bool),
+    stop: f64,
     between: &mut [f64],
 ) -> f64 {
     if !motion.dynamics.evaluator.has_switches() {
@@ -96,7 +96,8 @@ pub(super) fn stop_in_time<M: Method>(
     if !is_of_time || is_at(begin, end) {
         return stop;
     }
-    let spans_piece = at_piece && there(high, false).below != known.below;
+    // No step has ended where this one begins: a piece does.
+    let spans_piece = method.before() == begin && there(high, false).below != known.below;
     if spans_piece { begin + WITHIN_PIECE * (end - begin) } else { end }
 }
 
@@ -155,17 +156,16 @@ pub(super) fn stop_at_switch<M: Method>(
     Ok(is_shortened)
 }
 
-/// Puts the begin of the next step, which ends at `stop` at the latest, behind a place that the last one ended at; whether there was
-/// one.
+/// Puts the begin of the next step, which ends at `stop` at the latest, behind a place that the last one ended at.
 pub(super) fn cross<M: Method>(
     motion: &mut ConstrainedMotion<'_>,
     method: &mut Adaptive<M>,
     stop: f64,
     between: &mut [f64],
-) -> Result<bool, RunError> {
+) -> Result<(), RunError> {
     let length = method.t() - method.before();
     if length <= 0.0 || !motion.dynamics.evaluator.has_switches() {
-        return Ok(false);
+        return Ok(());
     }
     let known = Sides::at(motion, method.t(), method.y());
     let end = method.t();
@@ -183,9 +183,9 @@ pub(super) fn cross<M: Method>(
             && same.are_those_of(&sides)
         {
             method.interpolate(t, between);
-            return method.go_on_from(motion, t, between).map(|()| true);
+            return method.go_on_from(motion, t, between);
         }
         last = Some((t, sides));
     }
-    Ok(false)
+    Ok(())
 }
