@@ -73,6 +73,10 @@ pub struct Channel {
 /// How the names of columns begin whose signs say which pieces of formulas hold. `t` is no name that an element can have.
 pub const SWITCH: &str = "t.switch";
 
+/// How the names of columns begin, behind those of [`SWITCH`], that have how many rows the argument of a table has passed, with
+/// the part of the way to the next: another piece of the table holds behind every whole number.
+pub const ROW: &str = "t.row";
+
 /// How the name of a column ends that has what is held next.
 pub const NEXT: &str = ".next";
 /// How the name of a speed ends that is no speed but a value.
@@ -170,12 +174,14 @@ impl Description {
         self.speeds.iter().map(|speed| speed.unit.starts_with("rad")).collect()
     }
 
-    /// The columns whose signs say which pieces of formulas hold.
-    pub(crate) fn switches(&self) -> std::ops::Range<usize> {
-        let is_switch = |channel: &Channel| channel.name.starts_with(SWITCH);
-        let first = self.channels.iter().position(is_switch).unwrap_or(self.channels.len());
-        let count = self.channels[first..].iter().take_while(|channel| is_switch(channel)).count();
-        first..first + count
+    /// The columns that say which pieces of formulas hold: by their signs those of conditions, by their values those of rows.
+    pub(crate) fn pieces(&self) -> [std::ops::Range<usize>; 2] {
+        [SWITCH, ROW].map(|prefix| {
+            let is_one = |channel: &Channel| channel.name.starts_with(prefix);
+            let first = self.channels.iter().position(is_one).unwrap_or(self.channels.len());
+            let count = self.channels[first..].iter().take_while(|channel| is_one(channel)).count();
+            first..first + count
+        })
     }
 
     /// Whether controllers act at sampled times: whoever takes steps must know of them.

@@ -46,8 +46,8 @@ pub struct Evaluator<'a> {
     /// Whether any of them may be other than zero for dropped rows.
     has_dropped: bool,
     clearances: Clearances,
-    /// Columns that tell which pieces of formulas hold.
-    switches: std::ops::Range<usize>,
+    /// Columns that tell which pieces of formulas hold: conditions, rows of tables.
+    pieces: [std::ops::Range<usize>; 2],
     /// Controllers that act at sampled times.
     sampled: Vec<Sampled>,
     /// Bits of a time at which contacts were taken over.
@@ -101,7 +101,7 @@ impl<'a> Evaluator<'a> {
             kept,
             multipliers: vec![0.0; sizes.all_rows],
             has_dropped: false,
-            switches: description.switches(),
+            pieces: description.pieces(),
             sampled: sampled(system, description, parameters)?,
             clearances,
             contacts_known_at: None,
@@ -308,16 +308,18 @@ impl<'a> Evaluator<'a> {
         self.questions.ask(Entry::Observe, t, &[q, v, accelerations, &self.multipliers, drives, wrenches])
     }
 
-    /// Whether formulas change their piece by conditions.
+    /// Whether formulas change their piece, by conditions or at rows of tables.
     pub(crate) fn has_switches(&self) -> bool {
-        !self.switches.is_empty()
+        self.pieces.iter().any(|columns| !columns.is_empty())
     }
 
-    /// Values whose sign says which pieces of formulas hold at a state.
-    pub(crate) fn switches(&mut self, t: f64, q: &[f64], v: &[f64]) -> &[f64] {
-        let switches = self.switches.clone();
+    /// Which pieces of formulas hold at a state: values of conditions, which hold below zero, and how many rows of tables have been
+    /// passed.
+    pub(crate) fn pieces(&mut self, t: f64, q: &[f64], v: &[f64]) -> [&[f64]; 2] {
+        let pieces = self.pieces.clone();
         // They depend on no force: those of the last forward dynamics will do.
-        &self.observe(t, q, v)[switches]
+        let columns = self.observe(t, q, v);
+        pieces.map(|range| &columns[range])
     }
 
     /// What answers the questions.

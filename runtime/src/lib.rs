@@ -118,7 +118,7 @@ pub use {
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
-        Channel, CoefficientFactor, Description, DriverInfo, List, MODE, NEXT, ParameterInfo, RowInfo,
+        Channel, CoefficientFactor, Description, DriverInfo, List, MODE, NEXT, ParameterInfo, ROW, RowInfo,
         SAMPLE, SWITCH, TabledDescription, VALUE, VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},

@@ -47,6 +47,12 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
         &["1"],
         "A condition of a formula with pieces, by number from 1: below zero where it holds",
     ),
+    (
+        "t.row<n>",
+        &["1"],
+        "How many rows the argument of a table has passed, by number from 1: 0 at the first row, with the part of the way to the \
+         next; of a periodic table rising from period to period",
+    ),
     ("t.sample<n>", &["s"], "Time from sample to sample of a controller, by number from 1"),
     (
         "<joint>.q",

@@ -55,7 +55,11 @@ impl<'g> Inputs<'g> {
             Term::Mul(a, b) => value(a) * value(b),
             Term::Div(a, b) => value(a) / value(b),
             Term::Power(a, n) => value(a).powi(*n),
-            Term::Table(table, of) => table.of(value(of)),
+            Term::Table(table, of) => {
+                let x = value(of);
+                x.scope().note_row(table.row(x));
+                table.of(x)
+            }
             Term::Choice(parts) => {
                 let [below, yes, no] = &**parts;
                 value(below).below_zero(value(yes), value(no))

@@ -12,6 +12,7 @@ mod interned;
 mod node;
 mod operators;
 mod passes;
+mod rows;
 mod scope;
 mod signs;
 mod substitute;
@@ -45,6 +46,8 @@ pub struct Graph {
     labels: FxHashMap<ExprId, Arc<str>>,
     /// Conditions whose sides meet so well that no step has to end there.
     quiet: FxHashSet<ExprId>,
+    /// How many rows of tables their arguments have passed.
+    rows: Vec<ExprId>,
     /// Shared with copies, which add none.
     sections: Arc<Vec<String>>,
     /// Index of every section by its title.

@@ -90,31 +90,67 @@ impl DataTable {
                 // The root of a negative number, where there is nothing: it is no number, and so is what is made of it.
                 self.within(x) * (x - first).choose_quietly(x - first, inside).root()
             }
-            Outside::Hold => {
-                let x = (x - first).choose(first, x);
-                self.within((last - x).choose(last, x))
-            }
+            Outside::Hold => self.within(self.held(x)),
+            Outside::Periodic => self.within(x - (last - first) * self.periods(x)),
+        }
+    }
+
+    /// How many rows the argument has passed behind the first one, with the part of the way to the next; it goes on rising from
+    /// period to period.
+    pub fn row<V: Value>(&self, x: V) -> V {
+        let [first, last] = self.range().map(|end| x.number(end));
+        match self.outside {
+            Outside::Refuse => self.row_within(x),
+            Outside::Hold => self.row_within(self.held(x)),
             Outside::Periodic => {
-                let period = last - first;
-                self.within(x - period * ((x - first) / period).whole())
+                let periods = self.periods(x);
+                let rows = x.number(self.pieces.len() as f64);
+                self.row_within(x - (last - first) * periods) + rows * periods
             }
         }
     }
 
+    /// The nearest argument inside.
+    fn held<V: Value>(&self, x: V) -> V {
+        let [first, last] = self.range().map(|end| x.number(end));
+        let x = (x - first).choose(first, x);
+        (last - x).choose(last, x)
+    }
+
+    /// Whole periods passed.
+    fn periods<V: Value>(&self, x: V) -> V {
+        let [first, last] = self.range().map(|end| x.number(end));
+        ((x - first) / (last - first)).whole()
+    }
+
+    fn row_within<V: Value>(&self, x: V) -> V {
+        let [row, knot, length] = self.chosen(x, (0, self.pieces.len()), &|at| {
+            [at as f64, self.knots[at], self.knots[at + 1] - self.knots[at]]
+        });
+        row + (x - knot) / length
+    }
+
     fn within<V: Value>(&self, x: V) -> V {
-        let [knot, c0, c1, c2, c3] = self.piece(x, 0, self.pieces.len());
+        let [knot, c0, c1, c2, c3] = self.chosen(x, (0, self.pieces.len()), &|at| {
+            let [c0, c1, c2, c3] = self.pieces[at];
+            [self.knots[at], c0, c1, c2, c3]
+        });
         let u = x - knot;
         c0 + u * (c1 + u * (c2 + u * c3))
     }
 
-    /// Knot and numbers of the piece at `x` among those from `low` up to `high`.
-    fn piece<V: Value>(&self, x: V, low: usize, high: usize) -> [V; 5] {
+    /// Numbers of the piece at `x`, by those of each piece, among pieces from `low` up to `high`.
+    fn chosen<V: Value, const N: usize>(
+        &self,
+        x: V,
+        (low, high): (usize, usize),
+        of: &dyn Fn(usize) -> [f64; N],
+    ) -> [V; N] {
         if high - low == 1 {
-            let [c0, c1, c2, c3] = self.pieces[low];
-            return [self.knots[low], c0, c1, c2, c3].map(|number| x.number(number));
+            return of(low).map(|number| x.number(number));
         }
         let middle = low.midpoint(high);
-        let (left, right) = (self.piece(x, low, middle), self.piece(x, middle, high));
+        let (left, right) = (self.chosen(x, (low, middle), of), self.chosen(x, (middle, high), of));
         let side = x - x.number(self.knots[middle]);
         std::array::from_fn(|at| side.choose_quietly(left[at], right[at]))
     }

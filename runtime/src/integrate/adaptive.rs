@@ -229,18 +229,17 @@ impl<M: Method> Adaptive<M> {
     }
 
     /// Takes the last accepted step again, only up to `t` within it: something happens there that the steps
-    /// before and after must not be mixed with. Once per accepted step.
+    /// before and after must not be mixed with. It ends earlier where its error asks for that: the longer step may have
+    /// looked past what lies before `t`.
     ///
     /// # Errors
-    /// What the problem reports.
+    /// As [`Self::step`].
     pub fn retake(&mut self, problem: &mut dyn Problem, t: f64) -> Result<(), RunError> {
         core::mem::swap(&mut self.y, &mut self.next);
         self.method.take_back();
         let longest = self.control.take_back();
-        let length = t - self.t();
-        // A part of a step that was accepted is accepted, whatever its own estimate says.
-        let estimate = self.attempt(problem, length, t)?;
-        self.accept(problem, (length, t), Estimate { error: estimate.error.min(1.0), ..estimate });
+        self.control.set_step(t - self.t());
+        self.step(problem, t)?;
         self.control.limit(longest);
         Ok(())
     }

@@ -33,7 +33,30 @@ pub(super) fn stop_at_contact<M: Method>(
     method: &mut Adaptive<M>,
     between: &mut [f64],
 ) -> Result<(), RunError> {
-    let Some(follower) = &sampler.follower else { return Ok(()) };
+    while let Some(event) = first_event(motion, sampler, method, between) {
+        sampler.closing = event.closing;
+        if event.at >= 1.0 {
+            break;
+        }
+        let t = method.before() + event.at * (method.t() - method.before());
+        method.retake(motion, t)?;
+        if method.t() >= t {
+            break;
+        }
+        // Its error had it end earlier still: what it leads to is another motion.
+        sampler.closing = None;
+    }
+    Ok(())
+}
+
+/// What happens to a contact in the last step first.
+fn first_event<M: Method>(
+    motion: &mut ConstrainedMotion<'_>,
+    sampler: &Sampler<'_>,
+    method: &Adaptive<M>,
+    between: &mut [f64],
+) -> Option<Event> {
+    let follower = sampler.follower.as_ref()?;
     let (begin, length) = (method.before(), method.t() - method.before());
     let mut first: Option<Event> = None;
     for (joint, before) in follower.contacts.iter().enumerate() {
@@ -50,13 +73,7 @@ pub(super) fn stop_at_contact<M: Method>(
         // The search left the contacts at other places of the step.
         evaluate_end(motion, method);
     }
-    if let Some(event) = first {
-        sampler.closing = event.closing;
-        if event.at < 1.0 {
-            method.retake(motion, begin + event.at * length)?;
-        }
-    }
-    Ok(())
+    first
 }
 
 /// Whether the last step may have to end earlier: then its dense output is searched.

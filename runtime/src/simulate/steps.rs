@@ -336,12 +336,16 @@ impl<M: Method + Send> StepsOfAnyLength for AdaptiveSteps<M> {
             if to <= method.t() {
                 continue;
             }
+            let stop = switches::stop_in_time(motion, method, stop, between);
             let outcome = method.step(motion, stop);
             sampler.statistics.rejected = method.rejected();
             sampler.statistics.implicit_steps = method.implicit_steps();
             outcome?;
             events::stop_at_contact(motion, sampler, method, between)?;
-            switches::stop_at_switch(motion, sampler, method, between)?;
+            if switches::stop_at_switch(motion, sampler, method, between)? {
+                // A shorter step is another motion, in which a gap may close that stayed open.
+                events::stop_at_contact(motion, sampler, method, between)?;
+            }
             look_back(motion, sampler, method)?;
             *open = true;
         }

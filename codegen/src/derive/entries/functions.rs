@@ -1,7 +1,7 @@
 //! The blocks of every entry point but the equations of motion.
 //! In: the deriver's symbols, link motion. Out: [`Function`]s in the order of [`Entry::ALL`].
 
-use linkwear_runtime::{Channel, Entry, RowInfo, SWITCH};
+use linkwear_runtime::{Channel, Entry, ROW, RowInfo, SWITCH};
 
 use super::deriver::{Deriver, Given, Instant};
 use super::observe::Channels;
@@ -250,12 +250,12 @@ impl<'g> Deriver<'g> {
         function(Entry::Energy, "Kinetic and potential energy.", self.state_inputs([]), outputs)
     }
 
-    /// `switches`: values whose signs say which pieces of formulas hold.
+    /// `switches`: values whose signs say which pieces of formulas hold; `rows`: how many of each table have been passed.
     pub(super) fn observe(
         &self,
         (dynamic, masses): (&Instant<'g>, &[LinkMass<'g>]),
         with_poses: bool,
-        switches: &[Expr<'g>],
+        (switches, rows): (&[Expr<'g>], &[Expr<'g>]),
     ) -> (Function, Vec<Channel>) {
         let g = self.geometry.g;
         let mut instant = self.accelerated(dynamic, &self.v_dot);
@@ -272,10 +272,12 @@ impl<'g> Deriver<'g> {
         let in_links = self.is_short().then(|| list(&instant));
         let (mut channels, mut values) =
             in_links.filter(|in_links| in_links.0 < in_ground.0).unwrap_or(in_ground).1;
-        for (number, value) in switches.iter().enumerate() {
-            let name = format!("{SWITCH}{}", number + 1).into();
-            channels.push(Channel { name, unit: "1".into(), wraps: false });
-            values.push(*value);
+        for (prefix, pieces) in [(SWITCH, switches), (ROW, rows)] {
+            for (number, value) in pieces.iter().enumerate() {
+                let name = format!("{prefix}{}", number + 1).into();
+                channels.push(Channel { name, unit: "1".into(), wraps: false });
+                values.push(*value);
+            }
         }
         let inputs = self.state_inputs([
             Block::vector("v_dot", self.v_dot.iter().copied().chain(self.own_rates())).doc("Accelerations from forward_dynamics."),

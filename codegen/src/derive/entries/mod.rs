@@ -139,8 +139,11 @@ fn results(deriver: &Deriver<'_>, purpose: Purpose) -> (Vec<Function>, bool, Siz
     let g = deriver.geometry.g;
     let roots = [&forward_dynamics, &rates].into_iter().flat_map(|function| &function.outputs);
     let roots: Vec<ExprId> = roots.flat_map(|block| block.entries.iter().copied()).collect();
-    let switches = g.switches(&g.with_ids(&roots, &responses));
-    let (observe, channels) = deriver.observe((&dynamic, &masses), purpose == Purpose::Picture, &switches);
+    let inserted = g.with_ids(&roots, &responses);
+    let switches = g.switches(&inserted);
+    let passed = g.rows(&[roots, inserted].concat(), &deriver.given.tunable);
+    let pieces = (&*switches, &*passed);
+    let (observe, channels) = deriver.observe((&dynamic, &masses), purpose == Purpose::Picture, pieces);
     let contacts = deriver.contacts(&dynamic);
     let derivative =
         solved.map_or_else(|| nothing(Entry::Derivative), |solved| deriver.derivative(solved, &state_rates));
