@@ -62,7 +62,7 @@ fn a_negative_number_is_told_what_is_wrong_with_it() {
             &["plan", "fit.json", "--threshold", "-1", "--preventive", "1", "--failure", "9"],
             "positive number",
         ),
-        (&["simulate", "four_bar", "--step", "-1e-4"], "a positive number is needed"),
+        (&["simulate", "four_bar", "--step", "-0.0001"], "a positive number is needed"),
     ] {
         let answer = linkwear(words);
         assert!(answer.code == 2 && answer.err.contains(cause), "{words:?}: {}", answer.err);
