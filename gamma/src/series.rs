@@ -17,6 +17,9 @@ use crate::life::{FirstPassage, Lifetime, Survived, mixed_hazard};
 use crate::quadrature::integrate;
 use crate::random::{LnGamma, StandardNormal, Stream};
 
+/// Pieces, each twice as long as the one before, over which lives are followed of which part never end: to 1e12 typical ones.
+const DOUBLINGS: i32 = 40;
+
 /// Law of the factor all joints share; mean 1, coefficient of variation `cov` > 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SharedFactor {
@@ -146,8 +149,18 @@ impl SeriesSystem {
     /// Those of [`Survived::new`] and of [`Lifetime::quantile`].
     pub fn first_to_fail_after(&self, from: f64) -> Result<Vec<f64>, LifeError> {
         let rest = Survived::new(self, from)?;
-        let end = from + rest.quantile(1.0 - 1e-12)?;
-        let mut limits = self.limits(end, &[from, from + rest.quantile(0.5)?]);
+        let mut limits = match rest.quantile(1.0 - 1e-12) {
+            Err(LifeError::Never { .. } | LifeError::Endless { .. }) => {
+                // Part of the lives do not end: ever longer pieces, until as few are left of those that do.
+                let pieces: Vec<f64> =
+                    (0..DOUBLINGS).map(|k| from + rest.typical() * libm::exp2(f64::from(k))).collect();
+                self.limits(
+                    from + rest.typical() * libm::exp2(f64::from(DOUBLINGS)),
+                    &[&[from], &pieces[..]].concat(),
+                )
+            }
+            end => self.limits(from + end?, &[from, from + rest.quantile(0.5)?]),
+        };
         limits.retain(|limit| *limit >= from);
         let alive = self.reliability(from);
         let part = |j: usize| {
@@ -187,6 +200,10 @@ impl Lifetime for SeriesSystem {
         self.factors.iter().map(at).sum()
     }
 
+    fn ever(&self) -> f64 {
+        1.0 - self.members.iter().map(|member| 1.0 - member.ever()).product::<f64>()
+    }
+
     fn breaks(&self) -> Vec<f64> {
         self.members.iter().flat_map(Lifetime::breaks).collect()
     }
@@ -201,6 +218,13 @@ impl Lifetime for SeriesSystem {
     /// A factor near 0 lets joints live long: T grows as Z^(-1/g) where exposure grows as t^g, and E Z^-k of a Gamma
     /// law is finite only if 1/cov² > k.
     fn finite_moments(&self) -> Result<(), LifeError> {
+        // One joint that fails for certain is enough.
+        let mut alone = self.members.iter().map(Lifetime::finite_moments);
+        if let Some(error) = alone.next().filter(Result::is_err)
+            && alone.all(|other| other.is_err())
+        {
+            return error;
+        }
         let Some(SharedFactor::Gamma { cov }) = self.shared else { return Ok(()) };
         let growth = self.members.iter().map(|member| member.clock().growth()).fold(0.0, f64::max);
         let below = libm::sqrt(0.5 * growth);

@@ -300,7 +300,7 @@ pub struct ReportArguments {
     #[arg(long, value_name = "T", value_parser = threads)]
     pub threads: Option<NonZero<usize>>,
     /// Turns that the moving picture shows [default: 1].
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
     pub turns: Option<f64>,
     #[command(flatten)]
     pub equations: EquationsChoice,
@@ -333,7 +333,7 @@ pub struct DrawArguments {
     #[command(flatten)]
     pub input: Input,
     /// Turns that are drawn behind [default: 1].
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
     pub turns: Option<f64>,
     #[command(flatten)]
     pub equations: EquationsChoice,

@@ -1,5 +1,6 @@
 //! `fit`: a process of wear from a table of readings.
 
+mod across_groups;
 mod analysis;
 mod field;
 mod lambda;
@@ -23,6 +24,7 @@ use linkwear_gamma::fit::{
 };
 use serde_json::json;
 
+use self::across_groups::{GoesOn, Pooled, goes_on, pooled};
 use self::analysis::{Analysis, LEVEL, model, rounding};
 use self::read::{Group, groups};
 use super::answer::Answer;
@@ -65,7 +67,7 @@ pub fn fitted(
     drawn: Option<&Replicates>,
 ) -> Result<Fitted, Failure> {
     let (pooled, groups) = observed(arguments, table)?;
-    let analysis = |Observed { name, data, last }: &Observed| {
+    let analysis = |Observed { name, data, last, .. }: &Observed| {
         let here = |fit: &Fit| bootstrap(fit, data, 0..arguments.bootstrap as u64, arguments.seed);
         let replicates = |fit: &Fit| match drawn {
             _ if arguments.bootstrap == 0 => None,
@@ -76,7 +78,11 @@ pub fn fitted(
             .map_err(|error| no_fit(arguments, (name, data), error))
     };
     let parts = groups.iter().map(analysis).collect::<Result<Vec<_>, _>>()?;
-    let all = Analysis { comments_like_rows: table.comments_like_rows(), ..analysis(&pooled)? };
+    let all = Analysis {
+        comments_like_rows: table.comments_like_rows(),
+        shared: pooled.shared.clone(),
+        ..analysis(&pooled)?
+    };
     let test = ratio(&all, &parts);
     #[cfg(feature = "page")]
     picture::write_plot(arguments.plot.as_deref(), || fit_picture(&all.fit, &all.goodness, &pooled.data))?;
@@ -106,12 +112,14 @@ struct Observed {
     data: Observations,
     /// Wear of each unit now; NaN where it is not known.
     last: Vec<f64>,
+    /// Names of units in several groups.
+    shared: Vec<String>,
 }
 
 impl Observed {
     fn new(arguments: &FitArguments, name: &str, readings: &[Reading]) -> Result<Self, Failure> {
         let (data, last) = observe(arguments, readings)?;
-        Ok(Self { name: name.to_owned(), data, last })
+        Ok(Self { name: name.to_owned(), data, last, shared: Vec::new() })
     }
 }
 
@@ -121,9 +129,15 @@ fn observed(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<(Observed,
         return Err(few_replicates(arguments.bootstrap));
     }
     let groups = groups(arguments, table)?;
-    let all: Vec<Reading> = groups.iter().flat_map(|group| group.readings.clone()).collect();
+    // (0, 0) before its readings in the second group would count its wear in the first once more.
+    if arguments.from_zero
+        && let Some(unit) = goes_on(&groups)
+    {
+        return Err(not_from_zero(arguments, &unit));
+    }
+    let Pooled { readings: all, shared } = pooled(&groups);
     // All faults of growth at once, not group by group.
-    let pooled = Observed::new(arguments, ALL, &all)?;
+    let pooled = Observed { shared, ..Observed::new(arguments, ALL, &all)? };
     if pooled.data.units.len() == 1 && !arguments.one_unit {
         return Err(one_unit(arguments, &all));
     }
@@ -196,6 +210,15 @@ fn few_replicates(asked: usize) -> Failure {
     let message =
         format!("--bootstrap: of {asked} replicate(s) none lies beyond each end of an interval of 95 %");
     Failure::usage(message, format!("give {FEWEST_REPLICATES} or more, or leave --bootstrap out"))
+}
+
+/// Wear of a unit in the group before is no wear from (0, 0) on.
+fn not_from_zero(arguments: &FitArguments, GoesOn { unit, group, row }: &GoesOn) -> Failure {
+    let message = format!(
+        "row {row}: unit {unit} goes on in group {group}, where --from-zero would count all that it wore before once more"
+    );
+    let help = "leave --from-zero out and give (0, 0) as a row of the first group; if it is another unit, give it another name";
+    Failure::data(&arguments.file, Some(*row), message, help)
 }
 
 /// One unit shows how its own wear scatters; the process is asked about others.

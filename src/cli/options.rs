@@ -68,10 +68,10 @@ pub struct EquationsChoice {
 #[derive(Debug, Args)]
 pub struct RevolutionArguments {
     /// Relative error of the wear integral of a revolution [default: 1e-6; 1e-5 with `profile = true`].
-    #[arg(long, value_name = "E", value_parser = accuracy)]
+    #[arg(long, value_name = "E", value_parser = accuracy, allow_negative_numbers = true)]
     pub tol: Option<f64>,
     /// Fixed step of the fourth-order Runge-Kutta method [s], in place of --tol.
-    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol", allow_negative_numbers = true)]
     pub step: Option<f64>,
 }
 
@@ -81,7 +81,7 @@ pub struct MotionArguments {
     #[command(flatten)]
     pub length: LengthArguments,
     /// Rows of the output, evenly spaced over the run, both ends included.
-    #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=10_000_000))]
+    #[arg(long, default_value_t = 201, value_parser = clap::value_parser!(u32).range(2..=10_000_000), allow_negative_numbers = true)]
     pub samples: u32,
     /// Inputs over time: a CSV file with columns `t [s]` and `NAME [UNIT]` for inputs of [inputs]; others keep their defaults.
     #[arg(long, value_name = "FILE.csv")]
@@ -91,12 +91,12 @@ pub struct MotionArguments {
     #[arg(long, value_enum)]
     pub integrator: Option<IntegratorName>,
     /// Step of rk4 and generalized-alpha [s] [default: 1e-4].
-    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol", allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// Accuracy of dopri5, relative to every value, but where something is driven absolute below 1 m, rad, m/s or rad/s [default: 1e-9];
     /// with flexible bodies and of rodas5p, relative to their loads, so that joint forces have it [default: 1e-7]; of rk43, of the wear
     /// integral, 1e-4 or finer [default: 1e-6].
-    #[arg(long, value_name = "E", value_parser = accuracy)]
+    #[arg(long, value_name = "E", value_parser = accuracy, allow_negative_numbers = true)]
     pub tol: Option<f64>,
 }
 
@@ -104,17 +104,17 @@ pub struct MotionArguments {
 #[derive(Debug, Args)]
 pub struct LivesArguments {
     /// Random lives to draw by the Gamma process of [wear] [default: 1000 with a table, else none].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "mean")]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100_000_000), conflicts_with = "mean", allow_negative_numbers = true)]
     pub trajectories: Option<u64>,
     /// Take alpha and beta from a fit instead of [wear]; its covariance enters the error budget. Wear and Lambda of its
     /// data must be in um, Lambda from `life` (`fit --lambda life.json`). With several wearing joints: once for each.
     #[arg(long, value_name = "[JOINT=]FIT.json")]
     pub fit: Vec<String>,
     /// Coefficient of variation of a random wear-rate factor (Gamma law, mean 1) common to all joints of a life.
-    #[arg(long, value_name = "COV", value_parser = positive, conflicts_with = "mean")]
+    #[arg(long, value_name = "COV", value_parser = positive, conflicts_with = "mean", allow_negative_numbers = true)]
     pub shared_factor: Option<f64>,
     /// Seed of the random numbers; the same seed gives the same bits on any number of threads.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub seed: u64,
     /// Duty cycle of the mechanism's [missions] by which it is used [default: the only one, if there is one].
     #[arg(long, value_name = "NAME", conflicts_with = "no_mission")]
@@ -132,10 +132,10 @@ pub struct LivesArguments {
     #[arg(long)]
     pub no_feedback: bool,
     /// Revolutions to settle after each change of clearance, before measuring [default: until later ones would wear alike].
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", allow_negative_numbers = true)]
     pub settle: Option<u32>,
     /// Revolutions to average, at least; of a motion that never settles more are taken, unless --settle is given.
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100_000), allow_negative_numbers = true)]
     pub average: u32,
 }
 
@@ -144,10 +144,10 @@ pub struct LivesArguments {
 #[group(multiple = false)]
 pub struct LengthArguments {
     /// Turns of the first driven revolute joint [default: 1, if there is one].
-    #[arg(long, value_name = "N", value_parser = positive)]
+    #[arg(long, value_name = "N", value_parser = positive, allow_negative_numbers = true)]
     pub turns: Option<f64>,
     /// Time [s] [default: 1, if no revolute joint is driven].
-    #[arg(long, value_name = "T", value_parser = positive)]
+    #[arg(long, value_name = "T", value_parser = positive, allow_negative_numbers = true)]
     pub time: Option<f64>,
 }
 

@@ -8,8 +8,17 @@ pub fn why(name: &str, cell: &str) -> Wrong {
     if let Some(wrong) = with_commas(cell) {
         return wrong;
     }
+    // Of infinite numbers and of no number, too, the letters are no unit.
+    let is_number = cell.parse::<f64>().is_ok();
+    let joined = cell.replace('_', "");
+    if !is_number && joined.parse::<f64>().is_ok_and(f64::is_finite) {
+        return (
+            format!("is `{cell}`, a number with underscores"),
+            format!("leave them out in all numbers: `{joined}`"),
+        );
+    }
     let unit = cell.trim_start_matches(|c: char| c.is_ascii_digit() || "+-.eE ".contains(c));
-    if !unit.is_empty() && unit.len() < cell.len() {
+    if !is_number && !unit.is_empty() && unit.len() < cell.len() {
         let help =
             format!("one unit per column: convert all rows, and put it into the header, `{name}_{unit}`");
         return (format!("is `{cell}`, a number with a unit"), help);
@@ -72,6 +81,10 @@ mod tests {
             ("2,5", "decimal comma", "`2.5`"),
             ("1234,567", "decimal comma", "`1234.567`"),
             ("2 h", "with a unit", "`w_h`"),
+            ("-inf", "not a finite number", "write a number"),
+            ("+NaN", "not a finite number", "write a number"),
+            ("1e999", "not a finite number", "write a number"),
+            ("1_000", "with underscores", "`1000`"),
             ("x", "not a finite number", "write a number"),
             ("", "is empty", "write a number"),
         ] {

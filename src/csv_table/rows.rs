@@ -46,6 +46,20 @@ impl Iterator for Rows<'_> {
     type Item = Result<Row, BrokenRow>;
 
     fn next(&mut self) -> Option<Self::Item> {
+        loop {
+            let row = self.read();
+            // Where spaces around cells say nothing, a line of them is an empty one.
+            let is_blank = |broken: &BrokenRow| broken.cells.is_some_and(|[found, _]| found == 1);
+            match row {
+                Some(Err(broken)) if self.is_trimmed && is_blank(&broken) && self.begins.is_blank() => {}
+                row => return row,
+            }
+        }
+    }
+}
+
+impl Rows<'_> {
+    fn read(&mut self) -> Option<Result<Row, BrokenRow>> {
         // A text has less bytes than memory.
         self.begins.count_to(self.reader.position().byte() as usize);
         let mut record = StringRecord::new();
@@ -84,6 +98,12 @@ struct Begins<'t> {
 }
 
 impl Begins<'_> {
+    /// Whether the line at hand has nothing but blanks.
+    fn is_blank(&self) -> bool {
+        let line = self.text[self.at..].iter().take_while(|byte| !matches!(byte, b'\n' | b'\r'));
+        line.into_iter().all(u8::is_ascii_whitespace)
+    }
+
     /// Goes on to a place, and counts the ends of lines before it: \n, \r\n, or \r alone.
     fn count_to(&mut self, place: usize) {
         let to = place.clamp(self.at, self.text.len());
@@ -110,5 +130,21 @@ impl Begins<'_> {
             }
             self.count_to(self.at + length);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_of_blanks_are_empty_where_spaces_say_nothing() {
+        let text = "a,b\n1,2\n  \n3,4\n \t ";
+        let lines = |is_trimmed| -> Vec<Result<usize, usize>> {
+            let rows = Rows::new(text, is_trimmed);
+            rows.map(|row| row.map(|(line, _)| line).map_err(|broken| broken.line)).collect()
+        };
+        assert_eq!(lines(true), [Ok(1), Ok(2), Ok(4)]);
+        assert_eq!(lines(false)[2], Err(3));
     }
 }

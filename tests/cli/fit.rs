@@ -100,6 +100,70 @@ fn groups_are_fitted_alone_and_together() {
     assert_eq!(found["group_test"]["degrees"], 2);
 }
 
+/// Specimens numbered anew in each batch, in another unit of wear.
+fn batches(scale: f64, from: f64) -> String {
+    let mut rows = "unit,t,w,batch\n".to_owned();
+    for batch in ["A", "B"] {
+        for unit in 0..4_u32 {
+            let mut wear = 0.0;
+            for k in 0..6_u32 {
+                // Increments of 0.5 to 2.5 in a fixed disorder, other ones in each batch.
+                let step = f64::from((7 * k + 3 * unit + if batch == "A" { 0 } else { 4 }) % 11);
+                wear += if k == 0 { 0.0 } else { scale * (0.5 + 0.2 * step) };
+                rows.push_str(&format!("{unit},{},{wear},{batch}\n", from + f64::from(k)));
+            }
+        }
+    }
+    rows
+}
+
+const BATCHES: [&str; 10] =
+    ["--unit", "unit", "--wear", "w", "--exposure", "t", "--groups", "batch", "--format", "json"];
+
+#[test]
+fn units_numbered_anew_in_each_group_are_units_of_their_own() {
+    let found = |name: &str, rows: &str| {
+        let path = written(name, rows);
+        let shown = path.display().to_string();
+        let answer = linkwear(&[&["fit", &shown], &BATCHES[..]].concat()).json();
+        fs::remove_file(path).expect("the file");
+        answer
+    };
+    let count = |fit: &Value| fit["increments"]["from"].as_array().expect("a list").len();
+    for from in [0.0, 1.0] {
+        let [plain, scaled] = [1.0, 1000.0].map(|scale| found("batches", &batches(scale, from)));
+        for groups in [&plain, &scaled] {
+            let parts = groups["groups"].as_array().expect("a list");
+            assert_eq!(parts.iter().map(count).collect::<Vec<_>>(), [20, 20]);
+            assert_eq!(count(groups), 40);
+        }
+        let [statistic, other] =
+            [&plain, &scaled].map(|found| found["group_test"]["statistic"].as_f64().expect("a number"));
+        // Likelihoods of some tens: the maxima are met to 1e-9.
+        assert!(statistic > 0.0 && (statistic - other).abs() < 1e-6, "{statistic} {other}");
+        let warning = plain["warnings"].to_string();
+        assert!(warning.contains("unit 0 (and 3 more) is in several groups"), "{warning}");
+    }
+}
+
+#[test]
+fn a_unit_that_goes_on_in_another_group_does_not_begin_at_zero_again() {
+    let rows =
+        "unit,t,w,batch\na,1,1,A\na,2,2.5,A\na,3,3.1,A\na,4,5,A\nb,1,1,B\na,5,5.5,B\na,6,6.5,B\na,7,9,B\n";
+    let path = written("goes-on", rows);
+    let shown = path.display().to_string();
+    let answer = linkwear(&[&["fit", &shown], &BATCHES[..], &["--from-zero"]].concat());
+    let error = answer.errors()[0].clone();
+    assert_eq!(error["line"], 7, "{error}");
+    assert!(error["message"].as_str().is_some_and(|words| words.contains("goes on in group B")), "{error}");
+    // Other units of the same names, read at the same exposures, begin at 0 each.
+    let rows: String = batches(1.0, 1.0).replace(",0,A", ",0.4,A").replace(",0,B", ",0.3,B");
+    fs::write(&path, rows).expect("a file");
+    let found = linkwear(&[&["fit", &shown], &BATCHES[..], &["--from-zero"]].concat()).json();
+    assert_eq!(found["increments"]["from"].as_array().map(Vec::len), Some(48));
+    fs::remove_file(path).expect("the file");
+}
+
 #[test]
 fn bad_data_are_named_with_line_and_cure() {
     let cases = [
@@ -247,6 +311,19 @@ fn readings_are_rounded_to_the_step_of_the_gauge() {
     let pace = found["alpha"].as_f64().expect("a number") / found["beta"].as_f64().expect("a number");
     let total: f64 = units.iter().flatten().sum();
     assert!((pace - total / 15.0).abs() < 0.05, "{pace}");
+    // The others do not know the step, and say so wherever their criteria stand.
+    let options = ["--resolution", "0.5", "--compare"];
+    let compared = fit(&file, &options);
+    for (list, at) in [("comparison", 0), ("compare", 0)] {
+        let is_exact = |row: &Value| row["exact_readings"] == true;
+        let rows = compared[list].as_array().expect("rows");
+        assert!(!is_exact(&rows[at]) && rows.iter().filter(|row| is_exact(row)).count() == 2, "{rows:?}");
+    }
+    let shown = linkwear(&[&["fit", &file], &COLUMNS[..], &options].concat()).out;
+    assert!(
+        shown.contains("Wiener (exact readings)") && shown.contains("do not know --resolution"),
+        "{shown}"
+    );
     // With an error before rounding readings may fall, and less of their scatter is wear's.
     let falling = folder.write("falling.csv", &text.replace("1,4,1.5\n", "1,4,1\n"));
     let refused = linkwear(&[&["fit", &falling], &COLUMNS[..], &["--resolution", "0.5"]].concat());
@@ -265,6 +342,37 @@ fn readings_are_rounded_to_the_step_of_the_gauge() {
     let error = answer.errors()[0].clone();
     assert!(error["message"].as_str().expect("a text").starts_with("4 increment(s)"), "{error}");
     assert!(error["help"].as_str().expect("a text").contains("resolution"), "{error}");
+}
+
+#[test]
+fn only_differences_of_lambda_count_and_no_row_is_made_up() {
+    let folder = Folder::new("fit-lambda-table");
+    let rows = "unit,cycles,wear_um\na,0,0\na,1,1.3\na,2,1.9\na,5,5.5\nb,0,0\nb,1,0.8\nb,4,4.1\nb,5,4.9\n";
+    let file = folder.write("wear.csv", rows);
+    let table = |name: &str, rows: &str| folder.write(name, &format!("cycles,lambda\n{rows}"));
+    let by = |table: &str, more: &[&str]| {
+        linkwear(&[&["fit", &file], &COLUMNS[..], &["--lambda", table, "--format", "json"], more].concat())
+    };
+    let plain = by(&table("plain.csv", "0,0\n5,5\n"), &[]).json();
+    for other in ["0,10\n5,15\n", "-5,-3\n0,2\n5,7\n"] {
+        let found = by(&table("other.csv", other), &[]).json();
+        for key in ["alpha", "beta", "log_likelihood", "increments"] {
+            assert_eq!(found[key], plain[key], "{key}");
+        }
+    }
+    let late = table("late.csv", "1,4\n5,8\n");
+    for (more, words) in [(&[][..], "outside of"), (&["--from-zero"], "Lambda of new parts")] {
+        let error = by(&late, more).errors()[0].clone();
+        assert!(error["message"].as_str().is_some_and(|text| text.contains(words)), "{error}");
+    }
+    // Without the readings before its begin nothing is missing.
+    let worn = folder.write("worn.csv", &rows.replace("a,0,0\n", "").replace("b,0,0\n", ""));
+    let columns = [&["fit", &worn], &COLUMNS[..], &["--format", "json"]].concat();
+    let [by_late, by_plain] = [&late, &folder.path("plain.csv")]
+        .map(|table| linkwear(&[&columns[..], &["--lambda", table]].concat()).json());
+    for key in ["alpha", "beta", "log_likelihood"] {
+        assert_eq!(by_late[key], by_plain[key], "{key}");
+    }
 }
 
 #[test]

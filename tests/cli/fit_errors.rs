@@ -29,7 +29,7 @@ fn the_line_of_a_row_is_that_of_its_first_letter() {
     for (name, table, line) in [
         ("comments before a bad cell", "# c\n\nunit,h,w\n# one\n\na,0,0\n\n# two\n# three\na,1,x\n", 10),
         ("comments before wear that falls", "unit,h,w\n# c\na,0,0\na,1,1\n# d\n\na,2,0.5\nb,0,0\nb,1,1\n", 7),
-        ("empty lines before a short row", "unit,h,w\na,0,0\n\n\n   \n", 5),
+        ("empty lines before a short row", "unit,h,w\na,0,0\n\n   \na,1\n", 5),
         ("a row of two lines before", "unit,\"h\",w,\"a\nnote\"\na,0,0,\"of\ntwo\"\n# c\n\na,1,x,none\n", 7),
         ("line ends of other systems", "unit,h,w\r\n# c\r\n\r\na,0,0\r\n\r\na,1,x\r\n", 6),
         ("a lone carriage return", "unit,h,w\ra,0,0\r\ra,1,x\r", 4),

@@ -47,6 +47,36 @@ fn lasers_have_rates_of_their_own() {
 }
 
 #[test]
+fn lives_of_which_some_never_end_are_told_as_far_as_they_go() {
+    let folder = Folder::new("never");
+    // Drifts of 0.15 to 2.3, a steady scatter about each.
+    let mut rows = "unit,t,w\n".to_owned();
+    for (unit, drift) in [0.15, 0.5, 0.8, 1.0, 1.2, 1.5, 1.9, 2.3].into_iter().enumerate() {
+        let mut wear = 0.0;
+        rows.push_str(&format!("{unit},0,0\n"));
+        for k in 1..=6_usize {
+            wear += drift + 0.1 * ((7 * k + 3 * unit) % 11) as f64 - 0.5;
+            rows.push_str(&format!("{unit},{k},{wear}\n"));
+        }
+    }
+    let (data, out) = (folder.write("wear.csv", &rows), folder.path("fit.json"));
+    let columns = ["fit", &data, "--unit", "unit", "--wear", "w", "--exposure", "t", "--process", "wiener"];
+    linkwear(&[&columns[..], &["--random-effects", "--out", &out, "--format", "json"]].concat()).json();
+    let asked =
+        |p: &str| linkwear(&["predict", &out, "--threshold", "12", "--quantile", p, "--format", "json"]);
+    let told = asked("1%").json();
+    assert!(told["asked_quantiles"][0]["time"].is_number(), "{told}");
+    assert!(told["interval95"]["lower"].is_number() && told["interval95"]["upper"].is_null(), "{told}");
+    let last = told["reliability"].as_array().and_then(|course| course.last()).expect("a course");
+    assert!(last["time"].is_number() && last["reliability"].is_number(), "{last}");
+    assert!(told["warnings"].to_string().contains("ever fails"), "{told}");
+    let text = linkwear(&["predict", &out, "--threshold", "12"]).out;
+    assert!(text.contains("no upper end"), "{text}");
+    let refused = asked("99.9%").errors()[0].clone();
+    assert!(refused["message"].as_str().is_some_and(|text| text.contains("no time is known")), "{refused}");
+}
+
+#[test]
 fn units_alike_are_an_answer_and_one_unit_is_refused() {
     let folder = Folder::new("units-alike");
     let rows: String = (0..5)

@@ -54,6 +54,23 @@ fn the_case_study_is_a_program_of_its_own_and_the_answer_says_which() {
 }
 
 #[test]
+fn a_negative_number_is_told_what_is_wrong_with_it() {
+    for (words, cause) in [
+        (&["predict", "fit.json", "--threshold", "-1"][..], "a positive number is needed"),
+        (&["predict", "fit.json", "--threshold", "1", "--rate", "-2.5e3"], "a positive number is needed"),
+        (
+            &["plan", "fit.json", "--threshold", "-1", "--preventive", "1", "--failure", "9"],
+            "positive number",
+        ),
+        (&["simulate", "four_bar", "--step", "-0.0001"], "a positive number is needed"),
+    ] {
+        let answer = linkwear(words);
+        assert!(answer.code == 2 && answer.err.contains(cause), "{words:?}: {}", answer.err);
+        assert!(!answer.err.contains("unexpected argument"), "{}", answer.err);
+    }
+}
+
+#[test]
 fn wrong_usage_exits_with_2_and_says_so_in_json_too() {
     let cases: &[&[&str]] = &[
         &["simulate"],

@@ -169,14 +169,24 @@ impl Bootstrap {
         self.estimates.len() + self.failed
     }
 
-    /// The interval between the quantiles (1 -+ `level`) / 2 of the replicates' parameter `index`; none without
-    /// replicates.
-    pub fn interval(&self, index: usize, level: f64) -> Option<Interval> {
-        let mut values: Vec<f64> = self.estimates.iter().map(|estimate| estimate[index]).collect();
+    /// The basic interval (A. C. Davison, D. V. Hinkley, Bootstrap Methods (1997), 5.2) of parameter `index` of the fit: as far as
+    /// replicates lie above the estimate the truth may lie below it, and the other way round; in logarithms of what is positive by its
+    /// nature. Between quantiles of the replicates themselves an estimate that is too large on average would count twice. Where
+    /// replicates find no difference between units the upper end is open. None without replicates.
+    pub fn interval(&self, fit: &Fit, index: usize, level: f64) -> Option<Interval> {
+        self.estimates.first()?;
+        let is_logarithm = fit.model.is_logarithm(index);
+        let phi = |value: f64| if is_logarithm { libm::log(value) } else { value };
+        let mut values: Vec<f64> = self.estimates.iter().map(|estimate| phi(estimate[index])).collect();
         values.sort_by(f64::total_cmp);
-        let quantile = |p: f64| sorted_quantile(&values, p);
-        values.first()?;
-        Some(Interval { low: quantile(0.5 - 0.5 * level), high: quantile(0.5 + 0.5 * level) })
+        // Between a number and the logarithm of 0 there is none.
+        let quantile =
+            |p: f64| Some(sorted_quantile(&values, p)).filter(|q| !q.is_nan()).unwrap_or(f64::NEG_INFINITY);
+        let mirrored = |p: f64| fit.model.natural(index, 2.0 * fit.phi[index] - quantile(p));
+        let (low, high) = (mirrored(0.5 + 0.5 * level), mirrored(0.5 - 0.5 * level));
+        // An exponent stands in phi as it is, but is positive.
+        let is_exponent = fit.model.power_law && index == 2;
+        Some(Interval { low: if is_exponent { low.max(0.0) } else { low }, high })
     }
 
     /// Mean of the replicates' parameter `index`; none without replicates.

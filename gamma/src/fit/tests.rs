@@ -6,6 +6,7 @@ use super::*;
 use crate::data::{Gauge, Increment, Observations, Reading, Rounding};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 
+mod bootstrap_coverage;
 mod bounds;
 mod derivatives;
 mod rounded_units;
@@ -193,7 +194,7 @@ fn the_bootstrap_agrees_with_the_profile_and_repeats_its_bits() {
     let seen = goodness(&found, &data.increments, 1);
     let p = Bootstrap::p_value(&drawn.anderson_darling, seen.anderson_darling);
     assert!(p < 0.05, "A^2 {} p {p}", seen.anderson_darling);
-    assert!(drawn.interval(0, 0.95).unwrap().contains(found.parameters()[0]));
+    assert!(drawn.interval(&found, 0, 0.95).unwrap().contains(found.parameters()[0]));
 }
 
 /// Ten units with ten unequal spans of a process with alpha 3, beta 1.5.

@@ -24,14 +24,18 @@ pub struct Band {
     pub value: f64,
     /// Lower end.
     pub lower: f64,
-    /// Upper end.
+    /// Upper end; infinite where it is open.
     pub upper: f64,
 }
 
 impl Band {
-    /// A value with half of its interval's width on a scale; none where that is not finite.
+    /// A value with half of its interval's width on a scale. Of a probability no width where that is not finite; a time that parameters
+    /// nearby do not have is open.
     pub(crate) fn around(value: f64, scale: Scale, half: f64) -> Self {
         let centre = scale.out(value);
+        if scale == Scale::Log && centre.is_finite() && !half.is_finite() {
+            return Self { value, lower: 0.0, upper: f64::INFINITY };
+        }
         if !(centre.is_finite() && half.is_finite()) {
             return Self { value, lower: value, upper: value };
         }
@@ -176,10 +180,31 @@ impl<'a> Bands<'a> {
             return Ok(Band { value, lower: at(tail), upper: at(1.0 - tail) });
         }
         if !scale.out(value).is_finite() {
-            // A probability of 0 or 1 in all digits: the parameters do not move it.
-            return Ok(Band { value, lower: value, upper: value });
+            return self.at_an_edge(value, of);
         }
         Ok(Band::around(value, scale, self.z * variance(self.estimate, self.state, scale, of)?.sqrt()))
+    }
+}
+
+impl Bands<'_> {
+    /// Of a value that has no finite place on its scale, such as a probability of 0 or 1 in all digits: between the values at `z`
+    /// standard errors along each axis of the covariance.
+    fn at_an_edge(
+        &self,
+        value: f64,
+        of: &dyn Fn(&FirstPassage) -> Result<f64, LifeError>,
+    ) -> Result<Band, LifeError> {
+        let mut band = Band { value, lower: value, upper: value };
+        let size = self.estimate.logs().len();
+        for (at, sign) in (0..size).flat_map(|at| [(at, -1.0), (at, 1.0)]) {
+            let axis: Vec<f64> =
+                (0..size).map(|other| if other == at { sign * self.z } else { 0.0 }).collect();
+            let steps = self.estimate.factor().times(&axis);
+            let logs = self.estimate.logs_off_by(steps.into_iter().chain(std::iter::repeat(0.0)));
+            let there = of(&self.state.life_by(self.estimate, &logs)?)?;
+            band = Band { lower: band.lower.min(there), upper: band.upper.max(there), ..band };
+        }
+        Ok(band)
     }
 }
 
@@ -251,6 +276,19 @@ mod tests {
         let other =
             Bands::new(&estimate, &state, 0.9, Method::Draws { count: 2000, seed: 8 }).expect("valid");
         assert_ne!(draws.quantile(0.1), other.quantile(0.1));
+    }
+
+    #[test]
+    fn a_reliability_too_small_for_numbers_has_a_band_all_the_same() {
+        // Errors of half a logarithm.
+        let estimate = Estimate::new(&Gamma, [28.0, 14.0], None).expect("valid");
+        let estimate = estimate.with_log_covariance(&[vec![0.3, 0.0], vec![0.0, 0.3]]).expect("positive");
+        let state = OperatingState::new(10.0).expect("valid");
+        let bands = Bands::new(&estimate, &state, 0.95, Method::Delta).expect("valid");
+        let band = bands.reliability(30.0).expect("valid");
+        assert_eq!((band.value, band.lower), (0.0, 0.0));
+        // It was (0, 0) where the value came out as 0: a life 1.96 * 0.55 of a logarithm longer is not.
+        assert!(band.upper > 1e-50, "{band:?}");
     }
 
     #[test]

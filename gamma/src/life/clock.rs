@@ -91,6 +91,14 @@ impl Clock {
         }
     }
 
+    /// The rate of a steady load; none of another.
+    pub(crate) fn steady(&self) -> Option<f64> {
+        match self {
+            Self::Power { rate, exponent } if *exponent == 1.0 => Some(*rate),
+            _ => None,
+        }
+    }
+
     /// dLambda/dt at time `t`; of a table, the slope on the right of `t`.
     pub fn rate(&self, t: f64) -> f64 {
         match self {

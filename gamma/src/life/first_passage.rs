@@ -9,7 +9,7 @@
 
 use super::clock::Clock;
 use super::law::Law;
-use super::lifetime::Lifetime;
+use super::lifetime::{Lifetime, Moments, integrated_moments};
 use crate::error::{LifeError, non_negative, positive};
 
 /// Remaining life of one joint; time runs from the present, in the clock's unit.
@@ -108,6 +108,14 @@ impl Lifetime for FirstPassage {
         if self.law.has_moments() { Ok(()) } else { Err(LifeError::DriftOfUnits) }
     }
 
+    /// In closed form under a steady load, where there is one: near the threshold lives of a Wiener process are so uneven that
+    /// integrals miss them.
+    fn moments(&self) -> Result<Moments, LifeError> {
+        let closed = self.clock.steady().zip(self.law.passage_moments(self.left));
+        let Some((rate, (mean, variance))) = closed else { return integrated_moments(self) };
+        Ok(Moments { mean: mean / rate, std: libm::sqrt(variance) / rate, error: 0.0 })
+    }
+
     fn breaks(&self) -> Vec<f64> {
         self.clock.breaks().into_iter().map(|t| t - self.now).collect()
     }
@@ -119,8 +127,9 @@ impl Lifetime for FirstPassage {
 
 #[cfg(test)]
 mod tests {
+    use super::super::survived::Survived;
     use super::*;
-    use crate::process::Gamma;
+    use crate::process::{Gamma, InverseGaussian, Process, Wiener};
 
     /// GaAs lasers (Meeker & Escobar, 1998, table C.17), fit of the R package `gammaprocesses`; exposure = hours/1000.
     fn lasers() -> Law {
@@ -204,6 +213,57 @@ mod tests {
         let expected = (14.11445933 * 10.0 + 0.5) / 28.75350606;
         // The accuracy asked of the integral.
         assert!((life.moments().expect("finite").mean - expected).abs() < 1e-9);
+    }
+
+    #[test]
+    fn near_the_threshold_lives_of_a_wiener_process_have_their_closed_moments() {
+        let law = Law::new(&Wiener, [0.8, 0.3]).expect("valid");
+        let at = |left: f64| FirstPassage::new(law, Clock::linear(2.0).expect("valid"), left).expect("valid");
+        // J. L. Folks, R. S. Chhikara (1978): mean a / drift, variance a spread² / drift³; by the rate of the clock.
+        for left in [1e-12, 1e-6, 1.0, 50.0] {
+            let moments = at(left).moments().expect("finite");
+            let (mean, std) = (left / 1.6, (left * 0.09 / 0.512_f64).sqrt() / 2.0);
+            // Rounding.
+            assert!((moments.mean / mean - 1.0).abs() < 1e-14 && (moments.std / std - 1.0).abs() < 1e-14);
+            let outlived = Survived::new(&at(left), 0.0).expect("all").moments();
+            assert_eq!(outlived, Ok(moments));
+        }
+        let integrated = integrated_moments(&at(1.0)).expect("finite");
+        let closed = at(1.0).moments().expect("finite");
+        // The accuracy of the integrals.
+        assert!((integrated.mean - closed.mean).abs() < 1e-9 && (integrated.std - closed.std).abs() < 1e-8);
+    }
+
+    #[test]
+    fn hazards_go_on_where_survivors_are_too_few_for_numbers() {
+        let processes: [(&'static dyn Process, f64); 5] = [
+            (&Gamma, 0.1),
+            (&Gamma, 0.5),
+            (&Wiener, 0.02),
+            (&InverseGaussian, 0.05),
+            (&InverseGaussian, 0.3),
+        ];
+        for (process, cv) in processes {
+            let law = Law::of_units(process, [0.0, 2.0], cv).expect("valid");
+            let life = FirstPassage::new(law, clock(), 3.0).expect("valid");
+            let (mut few, mut none) = (3.0, 3.0);
+            while life.reliability(few) > 1e-270 && few < 1e6 {
+                few *= 1.02;
+            }
+            while life.reliability(none) > 0.0 && none < 1e6 {
+                none *= 1.02;
+            }
+            let [before, beyond, after] = [0.97 * few, none, 1.1 * none].map(|t| life.hazard(t));
+            assert!(
+                before > 0.0 && beyond.is_finite() && after.is_finite(),
+                "{process:?} {before} {beyond} {after}"
+            );
+            // Hazards go on without a jump: in a few tenths of the exposure they change by less than half.
+            assert!(
+                (beyond / before - 1.0).abs() < 0.5 && (after / beyond - 1.0).abs() < 0.5,
+                "{process:?} {before} {beyond} {after}"
+            );
+        }
     }
 
     #[test]

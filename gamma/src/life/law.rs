@@ -14,6 +14,8 @@ pub struct Law {
 
 /// Step of differences in the exposure, as a part of it: errors of 1e-10 by curvature and by rounding.
 const STEP: f64 = 1e-5;
+/// Survivors below which the hazard goes by their logarithm: numbers end at 1e-308, and lose digits on the way.
+const FEWEST: f64 = 1e-290;
 /// Exposure, in those that wear takes in the mean, after which a unit that has not failed never does.
 const FOREVER: f64 = 1e12;
 /// Places of a unit's parameter on either side at most; ten are usual.
@@ -138,9 +140,18 @@ impl Law {
         let at = |exposure: f64| effect.survival(self.logs, self.cv, exposure, left);
         let step = STEP * exposure;
         let ((before, failed_before), (after, failed_after)) = (at(exposure - step), at(exposure + step));
+        if after < FEWEST {
+            let ln = |exposure: f64| effect.ln_survival(self.logs, self.cv, exposure, left);
+            return (ln(exposure - step) - ln(exposure + step)) / (2.0 * step);
+        }
         // Of both differences the one that keeps its digits.
         let change = if before < 0.5 { before - after } else { failed_after - failed_before };
         change / (step * (before + after))
+    }
+
+    /// Mean and variance of the exposure at which wear reaches `left`, where they have closed forms.
+    pub(crate) fn passage_moments(&self, left: f64) -> Option<(f64, f64)> {
+        self.process.passage_moments(self.logs, left).filter(|_| self.effect().is_none())
     }
 
     /// Mean exposure at which wear reaches `left`.

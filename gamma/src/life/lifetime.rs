@@ -119,41 +119,7 @@ pub trait Lifetime {
     /// # Errors
     /// [`LifeError::HeavyTail`]; [`LifeError::Moments`] for an integral outside of what is possible.
     fn moments(&self) -> Result<Moments, LifeError> {
-        self.finite_moments()?;
-        let scale = self.typical();
-        let end = end(&|t| self.reliability(t), scale, GONE * self.accuracy());
-        // From the median both ways, the failed part below it and the survivors above: nothing is a small difference.
-        let centre = self.quantile(0.5)?;
-        let mut marks = vec![scale, centre];
-        let narrow = self.failed((1.0 - 0.5 * NARROW) * centre) < 0.1
-            && self.reliability((1.0 + 0.5 * NARROW) * centre) < 0.1;
-        let mut unit = centre;
-        if narrow {
-            for tail in FLANK {
-                marks.extend([self.quantile(tail)?, self.quantile(1.0 - tail)?]);
-            }
-            unit = self.quantile(1.0 - FLANK[0])? - self.quantile(FLANK[0])?;
-        }
-        let integrand = |t: f64| {
-            let part = if t < centre { -self.failed(t) } else { self.reliability(t) };
-            [part, 2.0 * (t - centre) * part]
-        };
-        let tolerance = [self.accuracy() * unit, self.accuracy() * unit * unit];
-        let (sums, errors) = integrate(&integrand, &self.limits(end, &marks), tolerance);
-        for ((what, [low, high]), (sum, slack)) in ["mean", "variance"]
-            .into_iter()
-            .zip(enclosure(self, centre, end)?)
-            .zip(sums.into_iter().zip(tolerance))
-        {
-            // Rounding of the sums, some hundred terms.
-            let slack = 10.0 * slack + 1e-13 * (high - low).abs();
-            let within = sum >= low - slack && sum <= high + slack;
-            if !within {
-                return Err(LifeError::Moments { what });
-            }
-        }
-        let variance = (sums[1] - sums[0] * sums[0]).max(0.0);
-        Ok(Moments { mean: centre + sums[0], std: variance.sqrt(), error: errors[0] })
+        integrated_moments(self)
     }
 
     /// Mean and standard deviation of the number of whole cycles, a cycle being one unit of time: the cycle in which
@@ -184,14 +150,55 @@ pub trait Lifetime {
     }
 }
 
+/// [`Lifetime::moments`] of any law, by integrals.
+pub(super) fn integrated_moments<L: Lifetime + ?Sized>(life: &L) -> Result<Moments, LifeError> {
+    life.finite_moments()?;
+    let scale = life.typical();
+    let end = end(&|t| life.reliability(t), scale, GONE * life.accuracy());
+    // From the median both ways, the failed part below it and the survivors above: nothing is a small difference.
+    let centre = life.quantile(0.5)?;
+    let mut marks = vec![scale, centre];
+    let narrow = life.failed((1.0 - 0.5 * NARROW) * centre) < 0.1
+        && life.reliability((1.0 + 0.5 * NARROW) * centre) < 0.1;
+    let mut unit = centre;
+    if narrow {
+        for tail in FLANK {
+            marks.extend([life.quantile(tail)?, life.quantile(1.0 - tail)?]);
+        }
+        unit = life.quantile(1.0 - FLANK[0])? - life.quantile(FLANK[0])?;
+    }
+    let integrand = |t: f64| {
+        let part = if t < centre { -life.failed(t) } else { life.reliability(t) };
+        [part, 2.0 * (t - centre) * part]
+    };
+    let tolerance = [life.accuracy() * unit, life.accuracy() * unit * unit];
+    let (sums, errors) = integrate(&integrand, &life.limits(end, &marks), tolerance);
+    for ((what, [low, high]), (sum, slack)) in ["mean", "variance"]
+        .into_iter()
+        .zip(enclosure(life, centre, end)?)
+        .zip(sums.into_iter().zip(tolerance))
+    {
+        // Rounding of the sums, some hundred terms.
+        let slack = 10.0 * slack + 1e-13 * (high - low).abs();
+        let within = sum >= low - slack && sum <= high + slack;
+        if !within {
+            return Err(LifeError::Moments { what });
+        }
+    }
+    let variance = (sums[1] - sums[0] * sums[0]).max(0.0);
+    Ok(Moments { mean: centre + sums[0], std: variance.sqrt(), error: errors[0] })
+}
+
 /// Hazard of a mixture, from the part of each law that is alive and its hazard.
 pub(crate) fn mixed_hazard(laws: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let (mut density, mut alive) = (0.0, 0.0);
+    let (mut density, mut alive, mut slowest) = (0.0, 0.0, f64::INFINITY);
     for (here, hazard) in laws {
         density += here * hazard;
         alive += here;
+        slowest = hazard.min(slowest);
     }
-    density / alive
+    // Where none is alive by numbers, the last to die are of the law that fails most slowly.
+    if alive > 0.0 { density / alive } else { slowest }
 }
 
 /// Bounds of the integrals of the parts, by steps: of S above the median and -F below it, and of the same times twice the

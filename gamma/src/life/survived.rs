@@ -1,7 +1,7 @@
 //! The life that is left to a part that has gone on for a time without failing. In: the law of a life. Out: a [`Lifetime`]
 //! from the end of that time on. Never knows wear.
 
-use super::lifetime::Lifetime;
+use super::lifetime::{Lifetime, Moments, integrated_moments};
 use crate::error::{LifeError, non_negative};
 
 /// Survivors below which the law beyond is rounding.
@@ -69,6 +69,11 @@ impl Lifetime for Survived<'_> {
 
     fn finite_moments(&self) -> Result<(), LifeError> {
         self.life.finite_moments()
+    }
+
+    /// Of the whole life where none of it has passed: it may know them in closed form.
+    fn moments(&self) -> Result<Moments, LifeError> {
+        if self.age == 0.0 { self.life.moments() } else { integrated_moments(self) }
     }
 
     fn hazard(&self, t: f64) -> f64 {

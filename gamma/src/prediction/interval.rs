@@ -2,6 +2,7 @@
 //! state. Out: a [`Lifetime`]. Never knows what else is told of a life.
 
 use super::Prediction;
+use super::questions::open;
 use crate::error::LifeError;
 use crate::inspection::{Mixture, Posterior, Prior};
 use crate::life::{Estimate, LifeMixture, Lifetime, OperatingState, PossibleLives, Sample};
@@ -99,10 +100,10 @@ impl Prediction {
     }
 }
 
-/// Ends of the interval that holds a life with probability [`Prediction::LEVEL`].
+/// Ends of the interval that holds a life with probability [`Prediction::LEVEL`]; infinite where so many never fail.
 pub(super) fn ends(life: &dyn Lifetime) -> Result<(f64, f64), LifeError> {
     let tail = 0.5 - 0.5 * Prediction::LEVEL;
-    Ok((life.quantile(tail)?, life.quantile(1.0 - tail)?))
+    Ok((open(life.quantile(tail))?, open(life.quantile(1.0 - tail))?))
 }
 
 /// The law that [`Prediction::predictive_interval`] is of.

@@ -1,9 +1,9 @@
 //! The life of a machine of several wearing joints, each with a fit of its own: it ends when the first of them fails.
 //! In: estimates and states. Out: numbers with their bands. Never knows files or terminals.
 
-use super::Prediction;
 use super::interval::{IntervalKind, ends, predictive_law};
-use super::questions::{Answers, Ask, Questions};
+use super::questions::{Answers, Ask, Questions, never_warning, usual_quantile};
+use super::{Prediction, TAIL};
 use crate::error::LifeError;
 use crate::inspection::Mixture;
 use crate::life::{Band, Estimate, FirstPassage, Lifetime, Moments, OperatingState, Survived, variance};
@@ -25,7 +25,7 @@ pub struct Member {
 pub struct Machine {
     /// Mean and standard deviation, the mean with its band; None where they are not finite, and a warning says so.
     pub moments: Option<(Moments, Band)>,
-    /// 10 %, 50 %, 90 % of the life, with what the parameters leave open.
+    /// 10 %, 50 %, 90 % of the life, with what the parameters leave open; infinite where so many never fail.
     pub quantiles: [Band; 3],
     /// Ends of the interval that holds the life with probability [`Prediction::LEVEL`].
     pub interval: (f64, f64),
@@ -50,12 +50,13 @@ impl Machine {
         let system = SeriesSystem::independent(lives.clone())?;
         let rest = Survived::new(&system, questions.survived)?;
         let band = |ask: Ask, value: f64| bands(members, &lives, questions.survived, ask, value);
-        let quantile = |p: f64| band(Ask::Quantile(p), rest.quantile(p)?);
+        let quantile = |p: f64| usual_quantile(&rest, p, &band);
         let quantiles = [quantile(0.1)?, quantile(0.5)?, quantile(0.9)?];
-        let (moments, warnings) = match rest.moments() {
+        let (moments, mut warnings) = match rest.moments() {
             Ok(moments) => (Some((moments, band(Ask::Mean, moments.mean)?)), Vec::new()),
             Err(error) => (None, vec![error.to_string()]),
         };
+        warnings.extend(never_warning(&rest, TAIL));
         let (laws, kinds): (Vec<_>, Vec<_>) = members
             .iter()
             .map(|one| predictive_law(&one.estimate, &one.state))
@@ -88,7 +89,7 @@ fn bands(
         let of = |life: &FirstPassage| {
             let mut lives = lives.to_vec();
             lives[at] = life.clone();
-            ask.by(&Survived::new(&SeriesSystem::independent(lives)?, survived)?)
+            ask.open(&Survived::new(&SeriesSystem::independent(lives)?, survived)?)
         };
         if estimate.is_uncertain() {
             sum += variance(estimate, state, ask.scale(), &of)?;

@@ -19,8 +19,8 @@ use crate::life::{
 pub use interval::IntervalKind;
 use interval::{ends, interval_warning, predictive_law};
 pub use machine::{Machine, Member};
-use questions::Ask;
 pub use questions::{Answers, AtTime, Questions};
+use questions::{Ask, never_warning, open, usual_quantile};
 
 /// Times at which reliability is given, from now until all but [`TAIL`] have failed.
 const TIMES: usize = 41;
@@ -42,9 +42,10 @@ pub struct Prediction {
     pub moments: Option<(Moments, Band)>,
     /// The same of the time rounded up to whole units.
     pub whole: Option<Moments>,
-    /// 10 %, 50 %, 90 % of the life, with what the parameters leave open.
+    /// 10 %, 50 %, 90 % of the life, with what the parameters leave open; infinite where so many never fail.
     pub quantiles: [Band; 3],
-    /// Ends of the interval that holds the life with probability [`Prediction::LEVEL`].
+    /// Ends of the interval that holds the life with probability [`Prediction::LEVEL`]; the upper one is infinite where more than its
+    /// part never fails.
     pub interval: (f64, f64),
     /// How it takes the parameters.
     pub interval_kind: IntervalKind,
@@ -75,7 +76,7 @@ impl Prediction {
         let life = state.life(estimate)?;
         let bands = Bands::new(estimate, state, Self::LEVEL, method)?;
         let mut answer = Self::ask((&life, state), "fit", questions, &|ask, _| {
-            bands.band(ask.scale(), &|life| ask.by(&Survived::new(life, questions.survived)?))
+            bands.band(ask.scale(), &|life| ask.open(&Survived::new(life, questions.survived)?))
         })?;
         let (law, kind) = predictive_law(estimate, state)?;
         answer.interval = ends(&Survived::new(&*law, questions.survived)?)?;
@@ -161,13 +162,13 @@ impl Prediction {
                 (None, None)
             }
         };
-        let quantile = |p: f64| band(Ask::Quantile(p), life.quantile(p)?);
+        warnings.extend(never_warning(life, TAIL));
+        let quantile = |p: f64| usual_quantile(life, p, band);
         let quantiles = [quantile(0.1)?, quantile(0.5)?, quantile(0.9)?];
-        // So far out there may be no number; the course then ends with those that have been told.
-        let end = match life.quantile(1.0 - TAIL) {
-            Err(LifeError::Endless { .. }) => quantiles[2].value,
-            end => end?,
-        };
+        // So far out there may be no number; the course then ends with the last that has been told.
+        let told = quantiles.iter().rev().map(|band| band.value);
+        let known = std::iter::once(open(life.quantile(1.0 - TAIL))?).chain(told);
+        let end = known.into_iter().find(|end| end.is_finite()).unwrap_or(life.typical());
         let mut course = Vec::with_capacity(TIMES);
         for k in 0..TIMES {
             let t = end * k as f64 / (TIMES - 1) as f64;

@@ -43,6 +43,38 @@ pub struct AtTime {
     pub rest: Option<Band>,
 }
 
+/// A time, infinite where there is none: part of the lives never end, or end beyond all numbers.
+pub(super) fn open(time: Result<f64, LifeError>) -> Result<f64, LifeError> {
+    match time {
+        Err(LifeError::Never { .. } | LifeError::Endless { .. }) => Ok(f64::INFINITY),
+        time => time,
+    }
+}
+
+/// The time by which the part `p` has failed with its band, which nobody has asked for: infinite where there is none.
+pub(super) fn usual_quantile(
+    life: &dyn Lifetime,
+    p: f64,
+    band: &dyn Fn(Ask, f64) -> Result<Band, LifeError>,
+) -> Result<Band, LifeError> {
+    let value = open(life.quantile(p))?;
+    if value.is_finite() {
+        band(Ask::Quantile(p), value)
+    } else {
+        Ok(Band { value, lower: value, upper: value })
+    }
+}
+
+/// What a reader has to know of lives that may not end; none where all but a small part do.
+pub(super) fn never_warning(life: &dyn Lifetime, part: f64) -> Option<String> {
+    let ever = life.ever();
+    (ever <= 1.0 - part).then(|| {
+        format!(
+            "the part {ever:.4} ever fails, as drifts of units may be below zero: later quantiles do not exist, and ends of intervals are open"
+        )
+    })
+}
+
 /// One question.
 #[derive(Clone, Copy)]
 pub(super) enum Ask {
@@ -64,6 +96,11 @@ impl Ask {
             Self::Rest(t) => Survived::new(life, t)?.mean(),
             Self::Mission([from, to]) => Ok(Survived::new(life, from)?.reliability(to - from)),
         }
+    }
+
+    /// The same where there may be no time by which so many have failed: it is infinite then.
+    pub(super) fn open(self, life: &dyn Lifetime) -> Result<f64, LifeError> {
+        open(self.by(life))
     }
 
     pub(super) fn scale(self) -> Scale {
@@ -89,9 +126,8 @@ impl Ask {
             let answer = match self {
                 // For a steady load the typical time is the mean; for a curved one it is near, at no cost of an integral.
                 Self::Mean if survived == 0.0 => life.typical(),
-                _ => match self.by(&rest) {
+                _ => match self.open(&rest) {
                     Err(LifeError::NoneSurvives { .. }) => return Ok((value, 0.0)),
-                    Err(LifeError::Endless { .. }) => f64::INFINITY,
                     answer => answer?,
                 },
             };

@@ -222,11 +222,8 @@ fn told(process: &'static dyn Process, (units, covariates): (usize, usize), unit
     let log = log.map(|(time, wear)| Reading { time: time * unit, wear }).to_vec();
     let exact = History::exact(process, log.clone()).expect("rising");
     for prior in [Prior::Fit(fit.clone()), Prior::Flat { process, power_law: true }] {
-        // Of few readings and an exponent that may be near zero the later lives have no number, in any unit.
-        match Prediction::after(&exact, &prior, &state, &questions) {
-            Err(InspectionError::Life(LifeError::Endless { .. })) => {}
-            told => add(told.expect("explained")),
-        }
+        // Of few readings and an exponent that may be near zero the later lives have no number, in any unit: they are infinite.
+        add(Prediction::after(&exact, &prior, &state, &questions).expect("explained"));
     }
     // Particles take seconds: of one process.
     if process.name() == Gamma.name() {
@@ -252,8 +249,65 @@ fn predictions_by_a_power_law_are_the_same_in_every_unit_of_exposure() {
             assert_eq!(plain.len(), other.len());
             for (at, (a, b)) in plain.iter().zip(other).enumerate() {
                 // The maximum is found to 1e-10, and what is drawn around it goes with it.
-                assert!((b / a - 1.0).abs() < 1e-6, "{process:?} {data:?} {unit} {at}: {a} {b}");
+                assert!(*a == b || (b / a - 1.0).abs() < 1e-6, "{process:?} {data:?} {unit} {at}: {a} {b}");
             }
         }
     }
+}
+
+/// Wiener processes whose drifts differ by a third: some 0.1 % of the units never fail.
+fn drifting(cv: f64) -> Estimate {
+    let logs = [vec![1e-2, 0.0, 0.0], vec![0.0, 1e-3, 0.0], vec![0.0, 0.0, 1e-2]];
+    let estimate = Estimate::new(&Wiener, [1.0, 0.3], None).expect("valid").differing(cv).expect("positive");
+    estimate.with_log_covariance(&logs).expect("positive definite")
+}
+
+#[test]
+fn what_never_happens_refuses_no_more_than_what_is_asked_of_it() {
+    let told = |cv: f64, p: f64| {
+        let asked = Questions { quantiles: vec![p], ..Questions::default() };
+        Prediction::by_fit(&drifting(cv), &state(), Method::Delta, &asked)
+    };
+    // 0.4 % never fail: the course of 99.9 % had no end, and nothing was told.
+    let few = told(0.4, 0.01).expect("B1 exists");
+    assert_eq!(few.answers.quantiles[0].0, 0.01);
+    assert!(
+        few.course.iter().all(|(t, band, _)| t.is_finite() && band.value >= 0.09),
+        "{:?}",
+        few.course.last()
+    );
+    assert_eq!(few.course.last().map(|last| last.0), Some(few.quantiles[2].value));
+    assert!(few.interval.0.is_finite() && few.warnings.iter().any(|text| text.contains("ever fails")));
+    // 12 %: neither B90 nor an upper end.
+    let many = told(0.85, 0.5).expect("B50 exists");
+    assert!(many.quantiles[1].value.is_finite() && many.quantiles[2].value == f64::INFINITY);
+    assert!(many.interval.0.is_finite() && many.interval.1 == f64::INFINITY);
+    assert_eq!(many.course.last().map(|last| last.0), Some(many.quantiles[1].value));
+    // What is asked for and does not exist is refused.
+    assert!(matches!(told(0.85, 0.9), Err(LifeError::Never { .. })));
+}
+
+#[test]
+fn a_quantile_near_the_part_that_ever_fails_has_an_open_band() {
+    let estimate = drifting(0.6);
+    let ever = state().life(&estimate).expect("valid").ever();
+    // So near that a step of the differences leaves no such time.
+    let asked = Questions { quantiles: vec![ever - 1e-9], ..Questions::default() };
+    let told = Prediction::by_fit(&estimate, &state(), Method::Delta, &asked).expect("exists");
+    let band = told.answers.quantiles[0].1;
+    assert!(band.value.is_finite() && band.lower == 0.0 && band.upper == f64::INFINITY, "{band:?}");
+}
+
+#[test]
+fn a_machine_lasts_for_ever_only_if_all_its_joints_do() {
+    let member = |estimate| Member { estimate, state: state() };
+    let told = Machine::new(&[member(drifting(0.85)), member(drifting(0.85))], &Questions::default());
+    let told = told.expect("quantiles exist");
+    assert!(told.moments.is_none() && told.quantiles[2].value.is_finite());
+    let ever = 1.0 - (1.0 - state().life(&drifting(0.85)).expect("valid").ever()).powi(2);
+    // The accuracy of the integrals, and those that fail after 1e12 lives.
+    assert!(told.first.iter().all(|first| (first - 0.5 * ever).abs() < 1e-8), "{:?} {ever}", told.first);
+    let told =
+        Machine::new(&[member(drifting(0.85)), member(lasers())], &Questions::default()).expect("valid");
+    assert!(told.moments.is_some() && told.interval.1.is_finite());
 }

@@ -122,6 +122,11 @@ pub trait Process: Debug + Sync {
     /// Failures per unit of exposure among the survivors, -d ln survival / d exposure.
     fn hazard(&self, logs: [f64; 2], exposure: f64, left: f64) -> f64;
 
+    /// Mean and variance of the exposure at which wear reaches `left`, where they have closed forms.
+    fn passage_moments(&self, _logs: [f64; 2], _left: f64) -> Option<(f64, f64)> {
+        None
+    }
+
     /// Mean exposure at which wear reaches `left`, but for terms that vanish exponentially with it.
     fn mean_exposure(&self, logs: [f64; 2], left: f64) -> f64;
 }

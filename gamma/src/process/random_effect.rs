@@ -34,6 +34,9 @@ pub trait RandomEffect: Debug + Sync {
         self.tails(logs, cv, exposure, left)
     }
 
+    /// ln of the first of them, for where it is too small for a number.
+    fn ln_survival(&self, logs: [f64; 2], cv: f64, exposure: f64, left: f64) -> f64;
+
     /// The law of a unit that wore so much over an exposure; None where it is none of this kind.
     fn after(&self, logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> Option<([f64; 2], f64)>;
 

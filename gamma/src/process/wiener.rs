@@ -134,6 +134,13 @@ impl Process for Wiener {
         left / (deviation * exposure) / (normal_mills(-near) - normal_mills(far))
     }
 
+    /// Those of the inverse Gaussian law: mean, mean³ / shape.
+    fn passage_moments(&self, logs: [f64; 2], left: f64) -> Option<(f64, f64)> {
+        let [drift, spread] = logs.map(libm::exp);
+        let mean = left / drift;
+        Some((mean, mean * (spread / drift) * (spread / drift)))
+    }
+
     /// Exact.
     fn mean_exposure(&self, logs: [f64; 2], left: f64) -> f64 {
         left / libm::exp(logs[0])

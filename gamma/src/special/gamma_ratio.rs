@@ -30,18 +30,35 @@ pub fn gamma_ratio(shape: f64, base: f64, ratio: f64) -> (f64, f64) {
     if ratio <= 0.0 {
         return (0.0, 1.0);
     }
-    // x^a (1 - x)^b / B(a, b) of the beta law, x = ratio / (base + ratio).
-    let ln_front = shape * libm::log(ratio) - ln_gamma(shape) + ln_rising(base, shape)
-        - (shape + base) * libm::log1p(ratio / base);
     let (x, rest) = (ratio / (base + ratio), base / (base + ratio));
-    let front = libm::exp(ln_front);
-    if x < (shape + 1.0) / (shape + base + 2.0) {
+    let front = libm::exp(ln_front(shape, base, ratio));
+    if is_low(shape, base, x) {
         let below = (front * fraction(shape, base, x) / shape).min(1.0);
         (below, 1.0 - below)
     } else {
         let above = (front * fraction(base, shape, rest) / base).min(1.0);
         (1.0 - above, above)
     }
+}
+
+/// x^a (1 - x)^b / B(a, b) of the beta law, x = ratio / (base + ratio), in logarithms.
+fn ln_front(shape: f64, base: f64, ratio: f64) -> f64 {
+    shape * libm::log(ratio) - ln_gamma(shape) + ln_rising(base, shape)
+        - (shape + base) * libm::log1p(ratio / base)
+}
+
+/// Whether x is where the fraction of the lower tail ends soon.
+fn is_low(shape: f64, base: f64, x: f64) -> bool {
+    x < (shape + 1.0) / (shape + base + 2.0)
+}
+
+/// ln of the first of both, also where it is too small for a number.
+pub fn ln_gamma_ratio_below(shape: f64, base: f64, ratio: f64) -> f64 {
+    let x = ratio / (base + ratio);
+    if ratio <= 0.0 || !is_low(shape, base, x) {
+        return libm::log(gamma_ratio(shape, base, ratio).0);
+    }
+    ln_front(shape, base, ratio) + libm::log(fraction(shape, base, x) / shape)
 }
 
 /// Probability that a number of Fisher's law with so many degrees of freedom is above `f`.

@@ -15,14 +15,14 @@ mod root;
 mod shape_slope;
 mod student;
 
-pub use gamma_ratio::{f_above, gamma_ratio, ln_rising};
+pub use gamma_ratio::{f_above, gamma_ratio, ln_gamma_ratio_below, ln_rising};
 pub use incomplete::{gamma_p, gamma_q, ln_gamma_p, ln_gamma_p_of_ln, ln_gamma_q};
 pub use inverse_gaussian::inverse_gaussian;
 pub use ln_gamma::{EULER, ln_gamma, ln_gamma_1p};
 pub use normal::{LN_2_PI, normal_cdf, normal_density, normal_mills, normal_quantile};
 pub use polygamma::{digamma, tetragamma, trigamma};
 pub use quantile::{gamma_quantile, ln_gamma_quantile};
-pub use reflected_normal::reflected_normal;
+pub use reflected_normal::{ln_above_reflected, ln_reflected_normal, reflected_normal};
 pub(crate) use root::{guarded, rising_root, rising_root_within};
 pub use shape_slope::ln_gamma_p_slope;
 pub use student::student_bound;

@@ -309,6 +309,9 @@ pub struct CriteriaAnswer {
     pub bic: Option<f64>,
     /// Whether no difference was found; null where units are alike.
     pub boundary: Option<bool>,
+    /// True where readings that the gauge rounds are taken as exact: criteria are not to be compared with those of rounded readings.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub exact_readings: bool,
     /// Why it does not fit these data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,
@@ -331,6 +334,9 @@ pub struct ComparedAnswer {
     /// Exponent and powers of the covariates, where they are estimated.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shape: Option<Vec<f64>>,
+    /// True where readings that the gauge rounds are taken as exact: its criterion is not to be compared with that of rounded readings.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub exact_readings: bool,
     /// Why it does not fit these data.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub why: Option<String>,

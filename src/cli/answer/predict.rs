@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use self::asked::{AskedAnswer, DatesAnswer, MachineAnswer};
-use self::parts::{BandsAnswer, PredictiveInterval};
+use self::parts::{BandsAnswer, PredictiveInterval, finite};
 use super::super::calendar::Calendar;
 use super::common::{Ends, Quantiles};
 use super::life::Sources;
@@ -36,8 +36,8 @@ pub struct PredictAnswer<'a> {
     pub mean_whole_cycles: Option<f64>,
     /// Standard deviation of the same [time].
     pub std_whole_cycles: Option<f64>,
-    /// Quantiles of the life [time].
-    pub quantiles: Quantiles<f64>,
+    /// Quantiles of the life [time]; null where so many never fail.
+    pub quantiles: Quantiles<Option<f64>>,
     /// Where 95 % of such lives end [time].
     pub interval95: PredictiveInterval,
     /// How far the parameters leave numbers open, at 95 %.
@@ -122,10 +122,10 @@ impl<'a> PredictAnswer<'a> {
             cov: moments.map(|(moments, _)| moments.cov()),
             mean_whole_cycles: told.whole.map(|whole| whole.mean),
             std_whole_cycles: told.whole.map(|whole| whole.std),
-            quantiles: told.quantiles.each_ref().map(|band| band.value).into(),
+            quantiles: told.quantiles.each_ref().map(|band| finite(band.value)).into(),
             interval95: PredictiveInterval {
-                lower: told.interval.0,
-                upper: told.interval.1,
+                lower: finite(told.interval.0),
+                upper: finite(told.interval.1),
                 kind: told.interval_kind.name(),
             },
             bands: BandsAnswer {
@@ -142,7 +142,7 @@ impl<'a> PredictAnswer<'a> {
                 })
                 .collect(),
             hazard: course
-                .map(|(time, _, hazard)| HazardAnswer { time: *time, hazard: Some(*hazard) })
+                .map(|(time, _, hazard)| HazardAnswer { time: *time, hazard: finite(*hazard) })
                 .collect(),
             asked: AskedAnswer::from(&told.answers),
             dates: DatesAnswer::new(told, calendar),

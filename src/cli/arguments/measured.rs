@@ -18,7 +18,7 @@ pub struct PredictArguments {
     /// Result of `linkwear fit .. --format json`.
     pub fit: PathBuf,
     /// Wear at failure, in the unit of the fit's data.
-    #[arg(long, value_name = "W", value_parser = positive)]
+    #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
     pub threshold: f64,
     /// Wear now [default: 0].
     #[arg(long, value_name = "W0", allow_negative_numbers = true)]
@@ -34,7 +34,7 @@ pub struct PredictArguments {
     #[arg(long, value_name = "NAME=VALUE", value_parser = covariate)]
     pub covariate: Vec<(String, f64)>,
     /// Exposure per unit of time from now on; lives are reported in that time [default: 1].
-    #[arg(long, value_name = "R", value_parser = positive)]
+    #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     pub rate: Option<f64>,
     /// Readings of this joint (CSV), time since it was new; the last one is the present.
     #[arg(long, value_name = "CSV", conflicts_with_all = ["current", "at"], requires_all = ["time", "wear"])]
@@ -46,26 +46,26 @@ pub struct PredictArguments {
     #[arg(long, value_name = "COL", requires = "inspections")]
     pub wear: Option<String>,
     /// Standard error of the gauge, in the unit of wear: readings may fall.
-    #[arg(long, value_name = "S", value_parser = positive, requires = "inspections")]
+    #[arg(long, value_name = "S", value_parser = positive, requires = "inspections", allow_negative_numbers = true)]
     pub gauge: Option<f64>,
     /// Take nothing from the fit but its form: the readings alone decide.
     #[arg(long, requires = "inspections", conflicts_with = "gauge")]
     pub flat_prior: bool,
     /// Particles that follow readings with gauge error.
-    #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(200..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 5000, value_parser = clap::value_parser!(u32).range(200..=1_000_000), allow_negative_numbers = true)]
     pub particles: u32,
     /// Beside the readings nothing is known but the mean wear per unit of exposure, which a catalogue gives as A to B; it lies
     /// within with 95 %. The fit gives the form.
     #[arg(long, value_name = "A..B", value_parser = range, requires = "inspections", conflicts_with_all = ["gauge", "flat_prior"])]
     pub catalogue: Option<[f64; 2]>,
     /// For how long it has gone on since then without failing, its wear unseen: everything is told from the end of that time.
-    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0", hide_default_value = true)]
+    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0", hide_default_value = true, allow_negative_numbers = true)]
     pub survived: f64,
     /// Part that has failed, by when is asked: 1% gives B1. Repeatable.
-    #[arg(long, value_name = "P", value_parser = part)]
+    #[arg(long, value_name = "P", value_parser = part, allow_negative_numbers = true)]
     pub quantile: Vec<f64>,
     /// Time at which reliability, hazard and the mean residual life of the survivors are asked. Repeatable.
-    #[arg(long, value_name = "TIME", value_parser = from_zero)]
+    #[arg(long, value_name = "TIME", value_parser = from_zero, allow_negative_numbers = true)]
     pub reliability_at: Vec<f64>,
     /// A mission from A to B: how probable a part that begins it gets through. Repeatable.
     #[arg(long, value_name = "A..B", value_parser = range)]
@@ -77,10 +77,10 @@ pub struct PredictArguments {
     #[command(flatten)]
     pub calendar: Calendar,
     /// Bands by this many drawn parameters [default: by the delta method].
-    #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = clap::value_parser!(u32).range(100..=1_000_000))]
+    #[arg(long, value_name = "N", conflicts_with = "inspections", value_parser = clap::value_parser!(u32).range(100..=1_000_000), allow_negative_numbers = true)]
     pub draws: Option<u32>,
     /// Seed of the random numbers.
-    #[arg(long, value_name = "S", default_value_t = 0)]
+    #[arg(long, value_name = "S", default_value_t = 0, allow_negative_numbers = true)]
     pub seed: u64,
     /// Draw reliability and hazard as charts (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]
@@ -96,55 +96,55 @@ pub struct PlanArguments {
     /// Result of `linkwear fit .. --format json`; or lives, a folder of `life --out` or its lives.csv.
     pub file: PathBuf,
     /// Wear at failure, in the unit of the fit's data.
-    #[arg(long, value_name = "W", value_parser = positive)]
+    #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
     pub threshold: Option<f64>,
     /// Value of a covariate of the fit, in the unit of the fit's data; one for each.
     #[arg(long, value_name = "NAME=VALUE", value_parser = covariate)]
     pub covariate: Vec<(String, f64)>,
     /// Exposure per unit of time; times are in that time [default: 1].
-    #[arg(long, value_name = "R", value_parser = positive, requires = "threshold")]
+    #[arg(long, value_name = "R", value_parser = positive, requires = "threshold", allow_negative_numbers = true)]
     pub rate: Option<f64>,
     /// Cost of a replacement in time, in any currency.
-    #[arg(long, value_name = "COST", value_parser = positive)]
+    #[arg(long, value_name = "COST", value_parser = positive, allow_negative_numbers = true)]
     pub preventive: f64,
     /// Cost of a failure with its replacement and all that it does.
-    #[arg(long, value_name = "COST", value_parser = positive)]
+    #[arg(long, value_name = "COST", value_parser = positive, allow_negative_numbers = true)]
     pub failure: f64,
     /// How long a replacement in time takes.
-    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0")]
+    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0", allow_negative_numbers = true)]
     pub preventive_time: f64,
     /// How long the standstill after a failure takes.
-    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0")]
+    #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0", allow_negative_numbers = true)]
     pub failure_time: f64,
     /// Cost of a look at the wear: plan looks too. Of lives, with --downtime: of a look that finds whether a part has failed.
-    #[arg(long, value_name = "COST", value_parser = positive)]
+    #[arg(long, value_name = "COST", value_parser = positive, allow_negative_numbers = true)]
     pub inspection: Option<f64>,
     /// Only a look finds a failure, and until then each unit of time costs this; without it a failure shows at once.
-    #[arg(long, value_name = "COST", value_parser = positive, requires = "inspection")]
+    #[arg(long, value_name = "COST", value_parser = positive, requires = "inspection", allow_negative_numbers = true)]
     pub downtime: Option<f64>,
     /// Time from look to look [default: the best].
-    #[arg(long, value_name = "TIME", value_parser = positive, requires = "inspection")]
+    #[arg(long, value_name = "TIME", value_parser = positive, requires = "inspection", allow_negative_numbers = true)]
     pub interval: Option<f64>,
     /// Wear from which a look has the part replaced [default: the best].
-    #[arg(long, value_name = "W", value_parser = positive, requires = "inspection")]
+    #[arg(long, value_name = "W", value_parser = positive, requires = "inspection", allow_negative_numbers = true)]
     pub replace_from: Option<f64>,
     /// What one look at the part in use would be worth, this long from now.
-    #[arg(long, value_name = "TIME", value_parser = positive)]
+    #[arg(long, value_name = "TIME", value_parser = positive, allow_negative_numbers = true)]
     pub look_at: Option<f64>,
     /// Wear of the part in use now [default: 0].
-    #[arg(long, value_name = "W0", value_parser = from_zero, requires = "look_at")]
+    #[arg(long, value_name = "W0", value_parser = from_zero, requires = "look_at", allow_negative_numbers = true)]
     pub current: Option<f64>,
     /// Exposure of the part in use until now; needed with --current for a power law.
-    #[arg(long, value_name = "EXPOSURE", value_parser = from_zero, requires = "look_at")]
+    #[arg(long, value_name = "EXPOSURE", value_parser = from_zero, requires = "look_at", allow_negative_numbers = true)]
     pub at: Option<f64>,
     /// Parts in use, all new at the start: plan spares for them.
-    #[arg(long, value_name = "N", requires = "horizon", value_parser = RangedU64ValueParser::<usize>::new().range(1..=FLEET as u64))]
+    #[arg(long, value_name = "N", requires = "horizon", value_parser = RangedU64ValueParser::<usize>::new().range(1..=FLEET as u64), allow_negative_numbers = true)]
     pub parts: Option<usize>,
     /// Time that spares are planned for.
-    #[arg(long, value_name = "TIME", value_parser = positive, requires = "parts")]
+    #[arg(long, value_name = "TIME", value_parser = positive, requires = "parts", allow_negative_numbers = true)]
     pub horizon: Option<f64>,
     /// Probability that the spares are enough.
-    #[arg(long, value_name = "P", value_parser = within_one, default_value = "0.95")]
+    #[arg(long, value_name = "P", value_parser = within_one, default_value = "0.95", allow_negative_numbers = true)]
     pub confidence: f64,
     /// Draw the cost over the age of replacement, with its best age and what the fit leaves open (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]
@@ -186,10 +186,10 @@ pub struct FitArguments {
     #[arg(long)]
     pub from_zero: bool,
     /// Step of the gauge: readings are the nearest multiples of it; a first reading at exposure 0 is exact.
-    #[arg(long, value_name = "R", value_parser = positive)]
+    #[arg(long, value_name = "R", value_parser = positive, allow_negative_numbers = true)]
     pub resolution: Option<f64>,
     /// Standard deviation of the normal error that readings have before they are rounded, up to 100 R; readings may then fall.
-    #[arg(long, value_name = "S", value_parser = positive, requires = "resolution")]
+    #[arg(long, value_name = "S", value_parser = positive, requires = "resolution", allow_negative_numbers = true)]
     pub gauge: Option<f64>,
     /// Column of a covariate such as load, which multiplies Lambda as a power. Repeatable.
     #[arg(long, value_name = "COL")]
@@ -216,10 +216,10 @@ pub struct FitArguments {
     #[arg(long)]
     pub compare: bool,
     /// Replicates of the parametric bootstrap, 40 at least: intervals, p-values of the goodness of fit; 0: none.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub bootstrap: usize,
     /// Seed of the random numbers.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub seed: u64,
     /// Draw probability paper, quantiles and residuals as charts (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]

@@ -13,6 +13,6 @@ pub struct DiffArguments {
     /// The other, of the same kind.
     pub b: PathBuf,
     /// Exit with 1 unless all agree within this part of a column's range; what they are of may differ.
-    #[arg(long, value_name = "R", value_parser = from_zero)]
+    #[arg(long, value_name = "R", value_parser = from_zero, allow_negative_numbers = true)]
     pub tolerance: Option<f64>,
 }

@@ -35,8 +35,16 @@ pub struct Analysis {
     pub compared: Vec<Compared>,
     /// Comments of the file that look like rows, where all readings are fitted.
     pub comments_like_rows: usize,
+    /// Names of units in several groups, where all readings are fitted.
+    pub shared: Vec<String>,
     /// Bias of the process's parameters to first order in 1/n, where theory has it.
     pub bias: Option<[f64; 2]>,
+}
+
+/// Whether a process takes readings as exact although their gauge rounds them: its likelihood is of other data than that of the
+/// process at hand, which takes them as rounded.
+pub fn takes_as_exact(process: &dyn Process, fit: &Fit) -> bool {
+    fit.model.resolution.is_some() && process != fit.model.process
 }
 
 /// A process, with units that differ or without, beside others.
@@ -120,6 +128,7 @@ impl Analysis {
             alternatives,
             compared,
             comments_like_rows: 0,
+            shared: Vec::new(),
             bias: fit.first_order_bias(data),
             file,
             fit,

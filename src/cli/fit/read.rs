@@ -10,7 +10,7 @@ use linkwear_gamma::data::Reading;
 use super::super::arguments::FitArguments;
 use super::super::failure::Failure;
 use super::field::{limits, resets, wears};
-use super::lambda::lambda_table;
+use super::lambda::LambdaTable;
 
 /// Readings of one group; of all data when there are no groups.
 pub struct Group {
@@ -87,13 +87,24 @@ fn clock(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<f64>, Fai
         let help = "add --exposure COL, in what the file counts in (cycles of `life`)";
         return Err(Failure::usage(message, help));
     };
-    let (by_exposure, end) = lambda_table(path)?;
+    let by_exposure = LambdaTable::read(path)?;
+    let [begin, end] = by_exposure.range;
+    if !by_exposure.begins_at_zero() && (arguments.from_zero || arguments.entered_below.is_some()) {
+        let option = if arguments.from_zero { "--from-zero" } else { "--entered-below" };
+        let message =
+            format!("`{lambda}` begins at exposure {begin}, but {option} asks for Lambda of new parts");
+        return Err(Failure::data(path, None, message, "begin the table with a row of exposure 0"));
+    }
     let read = exposures.iter().zip(table.lines()).map(|(exposure, line)| {
-        if (0.0..=end).contains(exposure) {
-            return Ok(by_exposure.exposure(*exposure));
-        }
-        let message = format!("line {line}: exposure {exposure} is outside of `{lambda}`, 0 to {end}");
-        Err(Failure::data(&arguments.file, Some(line), message, "run `life` further, or drop the line"))
+        by_exposure.at(*exposure).ok_or_else(|| {
+            let message =
+                format!("line {line}: exposure {exposure} is outside of `{lambda}`, {begin} to {end}");
+            let help = match *exposure < begin {
+                true => "give the table a row at or before it, 0,0 if that is true, or drop the line",
+                false => "run `life` further, give the table more rows, or drop the line",
+            };
+            Failure::data(&arguments.file, Some(line), message, help)
+        })
     });
     read.collect()
 }

@@ -15,7 +15,7 @@ use super::super::answer::fit::{
 };
 use super::super::arguments::FitArguments;
 use super::super::table::table;
-use super::analysis::{Analysis, Compared, LEVEL};
+use super::analysis::{Analysis, Compared, LEVEL, takes_as_exact};
 
 /// The fit of all readings, and of each group where there are groups.
 pub fn answer(
@@ -65,6 +65,15 @@ fn warnings(arguments: &FitArguments, own: &Analysis) -> Vec<String> {
         warnings.push(format!(
             "{} line(s) that look like readings begin with #, so they are comments; put names that begin with # in quotes",
             own.comments_like_rows
+        ));
+    }
+    if let Some(first) = own.shared.first() {
+        let more = match own.shared.len() - 1 {
+            0 => String::new(),
+            more => format!(" (and {more} more)"),
+        };
+        warnings.push(format!(
+            "unit {first}{more} is in several groups: it is taken as another unit in each, and wear between them counts in none"
         ));
     }
     if own.enter_unseen {
@@ -123,7 +132,7 @@ fn one<'a>(arguments: &FitArguments, own: &'a Analysis) -> OneFit<'a> {
         bootstrap_intervals: own
             .bootstrap
             .as_ref()
-            .map(|drawn| intervals(own, |at| drawn.interval(at, LEVEL))),
+            .map(|drawn| intervals(own, |at| drawn.interval(&own.fit, at, LEVEL))),
         bootstrap: BootstrapAnswer {
             replicates: arguments.bootstrap,
             seed: arguments.seed,
@@ -140,7 +149,7 @@ fn one<'a>(arguments: &FitArguments, own: &'a Analysis) -> OneFit<'a> {
             quantiles: &own.goodness.quantiles,
         },
         comparison: comparison(own),
-        compare: own.compared.iter().map(compared).collect(),
+        compare: own.compared.iter().map(|row| compared(row, own)).collect(),
         warnings: warnings(arguments, own),
     }
 }
@@ -165,7 +174,7 @@ fn p_anderson_darling(own: &Analysis) -> f64 {
     p_values(own).map_or_else(|| own.goodness.asymptotic_p(), |p| p.1)
 }
 
-fn compared(row: &Compared) -> CriteriaAnswer {
+fn compared(row: &Compared, own: &Analysis) -> CriteriaAnswer {
     let found = row.found.as_ref();
     CriteriaAnswer {
         process: row.process.name(),
@@ -174,6 +183,7 @@ fn compared(row: &Compared) -> CriteriaAnswer {
         aic: found.ok().map(|found| found.aic),
         bic: found.ok().map(|found| found.bic),
         boundary: row.random.then(|| found.is_ok_and(|found| found.boundary)),
+        exact_readings: takes_as_exact(row.process, &own.fit),
         why: found.err().map(ToString::to_string),
     }
 }
@@ -188,6 +198,7 @@ fn comparison(own: &Analysis) -> Vec<ComparedAnswer> {
         aic: None,
         parameters: Map::new(),
         shape: None,
+        exact_readings: takes_as_exact(process, &own.fit),
         why: None,
     };
     let fitted = |process: &dyn Process, fit: &Fit| ComparedAnswer {
@@ -242,7 +253,7 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
         .enumerate()
         .map(|(at, (name, value))| {
             let mut row = vec![name, format!("{value:.8}"), number(errors[at]), span(own.intervals[at])];
-            row.extend(own.bootstrap.as_ref().map(|drawn| span(drawn.interval(at, LEVEL))));
+            row.extend(own.bootstrap.as_ref().map(|drawn| span(drawn.interval(&own.fit, at, LEVEL))));
             row
         })
         .collect();
@@ -270,7 +281,8 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
                 Ok(found) if found.boundary => "no difference",
                 _ => "differ",
             };
-            let mut cells = vec![row.process.title().to_owned(), units.to_owned()];
+            let exact = if takes_as_exact(row.process, fit) { " (exact readings)" } else { "" };
+            let mut cells = vec![format!("{}{exact}", row.process.title()), units.to_owned()];
             match &row.found {
                 Ok(found) => {
                     cells.push(format!("{:.5}", found.log_likelihood));
@@ -282,6 +294,14 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
         };
         let rows: Vec<Vec<String>> = own.compared.iter().map(row).collect();
         let _ = write!(text, "\n{}", table(&["process", "units", "log-likelihood", "AIC", "BIC"], &rows));
+        if own.compared.iter().any(|row| takes_as_exact(row.process, fit)) {
+            let _ = writeln!(
+                text,
+                "processes with exact readings do not know --resolution: the coarser it is, the less their criteria may be compared \
+                 with those of the {} process",
+                fit.model.process.title()
+            );
+        }
     }
 }
 

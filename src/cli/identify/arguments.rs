@@ -32,7 +32,7 @@ pub struct IdentifyArguments {
     #[arg(long, value_name = "COL=S", value_parser = assignment, requires = "measured")]
     pub noise: Vec<(String, String)>,
     /// Turns that the machine had made before the time 0 of the curve.
-    #[arg(long, value_name = "N", value_parser = from_zero, requires = "measured")]
+    #[arg(long, value_name = "N", value_parser = from_zero, requires = "measured", allow_negative_numbers = true)]
     pub settle: Option<f64>,
     /// Inspections of a joint that began unworn: JOINT=FILE.csv. Repeatable.
     #[arg(long, value_name = "JOINT=CSV", value_parser = assignment, requires = "clock", requires = "wear")]
@@ -50,10 +50,10 @@ pub struct IdentifyArguments {
     #[arg(long, value_name = "S", requires = "inspections")]
     pub gauge: Option<String>,
     /// Searches, each from another place within the bounds.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=1000))]
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..=1000), allow_negative_numbers = true)]
     pub starts: u32,
     /// Seed of the places that searches begin from.
-    #[arg(long, value_name = "S", default_value_t = 1)]
+    #[arg(long, value_name = "S", default_value_t = 1, allow_negative_numbers = true)]
     pub seed: u32,
     /// Intervals by standard errors, without the profile of the likelihood: wrong where it is no parabola, and faster.
     #[arg(long)]
@@ -62,10 +62,10 @@ pub struct IdentifyArguments {
     #[arg(long, value_enum)]
     pub integrator: Option<IntegratorName>,
     /// Step of rk4 and generalized-alpha [s].
-    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol")]
+    #[arg(long, value_name = "S", value_parser = positive, conflicts_with = "tol", allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// Accuracy of dopri5, relative to every value [default: 1e-9]; of rk43, of the wear integral [default: 1e-6].
-    #[arg(long, value_name = "E", value_parser = accuracy)]
+    #[arg(long, value_name = "E", value_parser = accuracy, allow_negative_numbers = true)]
     pub tol: Option<f64>,
     /// Draw measured and predicted readings, and residuals (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]

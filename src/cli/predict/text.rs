@@ -12,6 +12,8 @@ use crate::number::{decimals, number};
 
 /// Every how many-th time is shown to people.
 const STRIDE: usize = 5;
+/// In place of a time that part of the lives, or of the laws that the data leave open, never reach.
+const NEVER: &str = "never";
 /// Decimals of times.
 const DECIMALS: usize = 6;
 
@@ -93,9 +95,9 @@ fn lives(usual: &[Band; 3], mean: Option<Band>, answers: &Answers, calendar: &Ca
         .chain(mean.map(|band| ("mean".to_owned(), band)))
         .map(|(name, Band { value, lower, upper })| {
             let mut row = vec![name];
-            row.extend([value, lower, upper].map(|time| decimals(time, DECIMALS)));
+            row.extend([value, lower, upper].map(time_or_never));
             if calendar.is_given() {
-                row.push(calendar.told(value));
+                row.push(if value.is_finite() { calendar.told(value) } else { NEVER.to_owned() });
             }
             row
         })
@@ -112,7 +114,19 @@ fn b_name(p: f64) -> String {
     format!("B{}", (1e14 * p).round() / 1e12)
 }
 
+/// A time, or that there is none.
+fn time_or_never(time: f64) -> String {
+    if time == f64::INFINITY { NEVER.to_owned() } else { decimals(time, DECIMALS) }
+}
+
 fn ends((lower, upper): (f64, f64), kind: &str, calendar: &Calendar) -> String {
+    if upper == f64::INFINITY {
+        let date = if calendar.is_given() { format!(", {}", calendar.told(lower)) } else { String::new() };
+        return format!(
+            "95 % of lives end after {}{date}, or never: no upper end ({kind})",
+            time_or_never(lower)
+        );
+    }
     let dates = if calendar.is_given() {
         format!(", {} to {}", calendar.told(lower), calendar.told(upper))
     } else {

@@ -15,13 +15,13 @@ pub struct SensitivityArguments {
     #[arg(long, value_name = "LIST", value_delimiter = ',')]
     pub by: Vec<String>,
     /// Random lives, whose mean is differentiated too.
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, allow_negative_numbers = true)]
     pub trajectories: u64,
     /// Seed of the random lives.
-    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(long, value_name = "N", default_value_t = 1, allow_negative_numbers = true)]
     pub seed: u64,
     /// Length of the steps of a turn [s] [default: as short as its wear needs].
-    #[arg(long, value_name = "S", value_parser = positive)]
+    #[arg(long, value_name = "S", value_parser = positive, allow_negative_numbers = true)]
     pub step: Option<f64>,
     /// Clearances at which turns are run, from that of the unworn mechanism to that of the failed one.
     #[arg(long, value_name = "N", default_value_t = 9, value_parser = clap::value_parser!(u16).range(3..=257))]

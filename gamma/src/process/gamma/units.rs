@@ -6,7 +6,7 @@ use rand::RngExt;
 
 use super::super::random_effect::{RandomEffect, RandomLaw};
 use crate::random::{LnGamma, Stream};
-use crate::special::{LN_2_PI, gamma_ratio, ln_gamma, ln_rising};
+use crate::special::{LN_2_PI, gamma_ratio, ln_gamma, ln_gamma_ratio_below, ln_rising};
 
 /// Shape from which on two terms of Stirling's series for the density are good to 1e-12.
 const LARGE: f64 = 1e4;
@@ -38,6 +38,11 @@ impl RandomEffect for GammaRate {
     fn tails(&self, logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> (f64, f64) {
         let [alpha, beta] = logs.map(libm::exp);
         gamma_ratio(alpha * exposure, 1.0 / (cv * cv), beta * wear)
+    }
+
+    fn ln_survival(&self, logs: [f64; 2], cv: f64, exposure: f64, left: f64) -> f64 {
+        let [alpha, beta] = logs.map(libm::exp);
+        ln_gamma_ratio_below(alpha * exposure, 1.0 / (cv * cv), beta * left)
     }
 
     fn after(&self, logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> Option<([f64; 2], f64)> {

@@ -12,7 +12,9 @@ use rand::RngExt;
 use super::super::random_effect::{RandomEffect, RandomLaw};
 use crate::quadrature::integrate;
 use crate::random::{StandardNormal, Stream};
-use crate::special::{LN_2_PI, inverse_gaussian, normal_cdf, normal_density, reflected_normal};
+use crate::special::{
+    LN_2_PI, inverse_gaussian, ln_reflected_normal, normal_cdf, normal_density, reflected_normal,
+};
 
 /// 1 / drift differs.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +30,16 @@ const ACCURACY: f64 = 1e-11;
 /// Logarithm of the part of a normal law that is above 0, its mean so many standard deviations above it.
 fn ln_above_zero(mean_over_std: f64) -> f64 {
     libm::log1p(-normal_cdf(-mean_over_std))
+}
+
+/// The closed form of a known drift, with its two normal integrals taken over 1 / drift, cut off nowhere: what [`reflected_normal`] takes.
+fn uncut(logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> [f64; 2] {
+    let m = libm::exp(-logs[0]);
+    let shape = libm::exp(logs[1]) * exposure * exposure;
+    let s = cv * m / exposure;
+    let m = m / exposure;
+    let grown = libm::sqrt((1.0 + shape * wear * s * s) * wear / shape);
+    [(wear * m - 1.0) / grown, (wear * (m + 2.0 * shape * s * s) + 1.0) / grown]
 }
 
 impl NormalSlowness {
@@ -92,14 +104,14 @@ impl RandomEffect for NormalSlowness {
         if cv * UNCUT > 1.0 {
             return Self::cut(logs, cv, exposure, wear);
         }
-        // The closed form of a known drift, with its two normal integrals taken over 1 / drift.
-        let m = libm::exp(-logs[0]);
-        let shape = libm::exp(logs[1]) * exposure * exposure;
-        let s = cv * m / exposure;
-        let m = m / exposure;
-        let grown = libm::sqrt((1.0 + shape * wear * s * s) * wear / shape);
-        let (z, y) = ((wear * m - 1.0) / grown, (wear * (m + 2.0 * shape * s * s) + 1.0) / grown);
+        let [z, y] = uncut(logs, cv, exposure, wear);
         reflected_normal(z, y)
+    }
+
+    /// So few survive only at large 1 / drift, far from the cut, which leaves its mark on the whole alone.
+    fn ln_survival(&self, logs: [f64; 2], cv: f64, exposure: f64, left: f64) -> f64 {
+        let [z, y] = uncut(logs, cv, exposure, left);
+        ln_reflected_normal(z, y) - ln_above_zero(1.0 / cv)
     }
 
     fn after(&self, logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> Option<([f64; 2], f64)> {

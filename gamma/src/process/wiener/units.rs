@@ -5,7 +5,7 @@ use rand::RngExt;
 
 use super::super::random_effect::{RandomEffect, RandomLaw};
 use crate::random::{StandardNormal, Stream};
-use crate::special::{LN_2_PI, normal_cdf, reflected_normal};
+use crate::special::{LN_2_PI, ln_above_reflected, normal_cdf, reflected_normal};
 
 /// The drift differs.
 #[derive(Clone, Copy, Debug)]
@@ -16,6 +16,15 @@ fn moments(logs: [f64; 2], cv: f64, exposure: f64) -> (f64, f64) {
     let [drift, spread] = logs.map(libm::exp);
     let mean = drift * exposure;
     (mean, spread * spread * exposure + cv * cv * mean * mean)
+}
+
+/// The closed form of a known drift, with its two normal integrals taken over the drift: what [`reflected_normal`] takes.
+fn passage(logs: [f64; 2], cv: f64, exposure: f64, left: f64) -> [f64; 2] {
+    let [drift, spread] = logs.map(libm::exp);
+    let (mean, variance) = moments(logs, cv, exposure);
+    let deviation = libm::sqrt(variance);
+    let shift = 2.0 * cv * cv * drift * drift * left * exposure / (spread * spread);
+    [(mean - left) / deviation, (mean + left + shift) / deviation]
 }
 
 impl RandomEffect for NormalDrift {
@@ -43,14 +52,15 @@ impl RandomEffect for NormalDrift {
         (normal_cdf(z), normal_cdf(-z))
     }
 
-    /// The closed form of a known drift, with its two normal integrals taken over the drift.
     fn survival(&self, logs: [f64; 2], cv: f64, exposure: f64, left: f64) -> (f64, f64) {
-        let [drift, spread] = logs.map(libm::exp);
-        let (mean, variance) = moments(logs, cv, exposure);
-        let deviation = libm::sqrt(variance);
-        let shift = 2.0 * cv * cv * drift * drift * left * exposure / (spread * spread);
-        let (below, above) = reflected_normal((mean - left) / deviation, (mean + left + shift) / deviation);
+        let [z, y] = passage(logs, cv, exposure, left);
+        let (below, above) = reflected_normal(z, y);
         (above, below)
+    }
+
+    fn ln_survival(&self, logs: [f64; 2], cv: f64, exposure: f64, left: f64) -> f64 {
+        let [z, y] = passage(logs, cv, exposure, left);
+        ln_above_reflected(z, y)
     }
 
     fn after(&self, logs: [f64; 2], cv: f64, exposure: f64, wear: f64) -> Option<([f64; 2], f64)> {

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::super::super::calendar::Calendar;
 use super::super::common::{Ends, Quantiles};
-use super::parts::{BandsAnswer, PredictiveInterval};
+use super::parts::{BandsAnswer, PredictiveInterval, finite};
 
 /// Answers to what was asked beyond the usual.
 #[derive(Serialize)]
@@ -50,7 +50,7 @@ pub struct TimeAnswer {
     #[serde(flatten)]
     pub band: Ends,
     /// Rate of failures of those without [1/time]; null where it has no bound.
-    pub hazard: f64,
+    pub hazard: Option<f64>,
     /// Mean of what is left to those without [time]; null where it is not finite or nearly none are left.
     pub mean_residual_life: Option<f64>,
     /// Its band at 95 % [time].
@@ -105,8 +105,8 @@ pub struct MachineAnswer {
     pub mean: Option<f64>,
     /// Standard deviation of the life [time]; null where it is not finite.
     pub std: Option<f64>,
-    /// Quantiles of the life [time].
-    pub quantiles: Quantiles<f64>,
+    /// Quantiles of the life [time]; null where so many never fail.
+    pub quantiles: Quantiles<Option<f64>>,
     /// Where 95 % of such lives end [time].
     pub interval95: PredictiveInterval,
     /// How far the parameters leave numbers open, at 95 %.
@@ -133,7 +133,7 @@ pub struct FirstAnswer {
 
 impl From<&Band> for Ends {
     fn from(band: &Band) -> Self {
-        Self { lower: Some(band.lower), upper: Some(band.upper) }
+        Self { lower: finite(band.lower), upper: finite(band.upper) }
     }
 }
 
@@ -145,7 +145,7 @@ impl From<&Answers> for AskedAnswer {
             time: at.time,
             reliability: at.reliability.value,
             band: (&at.reliability).into(),
-            hazard: at.hazard,
+            hazard: finite(at.hazard),
             mean_residual_life: at.rest.map(|rest| rest.value),
             mean_residual_life_band: at.rest.as_ref().map(Ends::from),
         };
@@ -195,10 +195,10 @@ impl MachineAnswer {
         Self {
             mean,
             std: moments.map(|(moments, _)| moments.std),
-            quantiles: life.quantiles.each_ref().map(|band| band.value).into(),
+            quantiles: life.quantiles.each_ref().map(|band| finite(band.value)).into(),
             interval95: PredictiveInterval {
-                lower: life.interval.0,
-                upper: life.interval.1,
+                lower: finite(life.interval.0),
+                upper: finite(life.interval.1),
                 kind: life.interval_kind.name(),
             },
             bands: BandsAnswer {
