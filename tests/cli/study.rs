@@ -16,7 +16,7 @@ use serde_json::Value;
 
 const RIGID: &str = "mechanisms/rssr_rigid.toml";
 /// Coarse steps: only bits are compared.
-const LIFE: [&str; 6] = ["mechanisms/rssr.toml", "--rigid", "--step", "1e-4", "--settle", "0"];
+const LIFE: [&str; 6] = ["mechanisms/rssr.toml", "--rigid", "--step", "5e-5", "--settle", "0"];
 const JSON: [&str; 2] = ["--format", "json"];
 
 fn study(arguments: &[&[&str]]) -> Answer {

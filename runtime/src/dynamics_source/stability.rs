@@ -27,6 +27,12 @@ const NO_DIRECTION: f64 = 1e-6;
 /// A swing that nothing damps comes out with a factor of 1 to 2e-4, as of rotors with a coefficient of friction of 0 and 0.1; one that
 /// grows by less than this in a turn is taken for it.
 const GROWS: f64 = 1e-3;
+/// Steps of a turn at most: what a million of them shake a contact by is as much as a displacement, so that factors between 1 and 1.5 come
+/// out by chance. A life with such turns is taken as steady.
+const LOUD: u64 = 300_000;
+/// Displacements ten times as large grow by the same factor, up to this part of its logarithm, or it is chance.
+const SAME: f64 = 0.2;
+const LARGER: f64 = 10.0;
 /// Squarings of the matrix: its largest eigenvalue by the 2^30th power is exact to rounding.
 const SQUARINGS: i32 = 30;
 /// The push from which a growing motion starts, in the natural sizes of offsets and rates: well beyond rounding, and in its offset, of a
@@ -40,6 +46,8 @@ const FULL: f64 = 10.0;
 const OVER: f64 = 3.0;
 /// Turns at most: those of a steady load take a millisecond or some.
 const MOST_TURNS: f64 = 3000.0;
+/// Steps in them at most, some ten seconds.
+const MOST_STEPS: u64 = 20_000_000;
 
 /// How a displacement of journals grows in a turn.
 #[derive(Clone, Debug)]
@@ -66,36 +74,52 @@ pub(super) struct Left {
 pub(super) fn leave(runner: &mut TurnRunner<'_>, watch: Watch<'_>) -> Result<Option<Left>, RunError> {
     let begin = runner.state();
     let method = runner.go_by(runner.method().at_least(EXACT));
-    let growth = growth(runner, &begin, watch);
+    let growth = certain_growth(runner, &begin, watch);
     runner.go_by(method);
     runner.restore(&begin)?;
-    let growth = growth?;
-    let Some(Growth { factor, direction }) = growth.filter(|growth| growth.factor > 1.0 + GROWS) else {
-        return Ok(None);
-    };
+    let Some(Growth { factor, direction }) = growth? else { return Ok(None) };
     let folds = factor.ln();
     let turns = (FULL / folds).ceil();
     let scales = scales(runner)?;
     let size = crate::linear::largest(&direction);
     displace(runner, &direction.iter().map(|x| PUSHED / size * x).collect::<Vec<_>>(), &scales);
-    for _ in 0..turns.min(MOST_TURNS) as u32 {
-        runner.measure(watch)?;
+    let (mut ran, mut steps) = (0, 0);
+    while ran < turns.min(MOST_TURNS) as u32 && steps < MOST_STEPS {
+        steps += runner.measure(watch)?.statistics.steps;
+        ran += 1;
     }
-    let slow = RunWarning::GrowsSlowly { turns: 1.0 / folds, ran: MOST_TURNS as u32 };
-    let lasting = (OVER / folds).min(MOST_TURNS).ceil() as u32;
-    Ok(Some(Left { lasting, doubts: (turns > MOST_TURNS).then_some(slow) }))
+    let slow = RunWarning::GrowsSlowly { turns: 1.0 / folds, ran };
+    let lasting = ((OVER / folds).ceil() as u32).min(ran);
+    Ok(Some(Left { lasting, doubts: (f64::from(ran) < turns).then_some(slow) }))
 }
 
-/// The growth in the turn from a state; nothing where journals cannot be displaced.
-fn growth(
+/// The growth in the turn from a state, if there is any that does not depend on how far journals are displaced.
+fn certain_growth(
     runner: &mut TurnRunner<'_>,
     begin: &TurnState,
+    watch: Watch<'_>,
+) -> Result<Option<Growth>, RunError> {
+    let Some(found) = growth(runner, (begin, DISPLACED), watch)?.filter(|growth| growth.factor > 1.0 + GROWS)
+    else {
+        return Ok(None);
+    };
+    let larger = growth(runner, (begin, LARGER * DISPLACED), watch)?;
+    let is_same = |larger: &Growth| (larger.factor / found.factor).ln().abs() <= SAME * found.factor.ln();
+    Ok(larger.is_some_and(|larger| is_same(&larger)).then_some(found))
+}
+
+/// The growth in the turn from a state, of displacements [radial clearances]; nothing where journals cannot be displaced.
+fn growth(
+    runner: &mut TurnRunner<'_>,
+    (begin, displaced): (&TurnState, f64),
     watch: Watch<'_>,
 ) -> Result<Option<Growth>, RunError> {
     let scales = scales(runner)?;
     runner.restore(begin)?;
     let stand = standing(runner, &scales);
-    runner.measure(watch)?;
+    if runner.measure(watch)?.statistics.steps > LOUD {
+        return Ok(None);
+    }
     let reached = standing(runner, &scales);
     let most = stand.len().min(MOST_TRIED);
     // Along no axis, and none twice.
@@ -105,13 +129,13 @@ fn growth(
     while let Some(tried) = basis.last().filter(|_| basis.len() <= most).cloned() {
         let column = basis.len() - 1;
         runner.restore(begin)?;
-        let by: Vec<f64> = tried.iter().map(|x| DISPLACED * x).collect();
+        let by: Vec<f64> = tried.iter().map(|x| displaced * x).collect();
         if !displace(runner, &by, &scales) {
             return Ok(None);
         }
         runner.measure(watch)?;
         let now = standing(runner, &scales);
-        let mut grown: Vec<f64> = now.iter().zip(&reached).map(|(a, b)| (a - b) / DISPLACED).collect();
+        let mut grown: Vec<f64> = now.iter().zip(&reached).map(|(a, b)| (a - b) / displaced).collect();
         let before = dot(&grown, &grown).sqrt();
         // Twice: what rounding leaves of the first time is taken away the second.
         for _ in 0..2 {
