@@ -90,7 +90,8 @@ pub(super) fn stop_in_time<M: Method>(
         combine(between, method.y(), if moves { part * length } else { 0.0 }, method.slope());
         Sides::at(motion, begin + part * length, between)
     };
-    let Some((low, high)) = first_change(&known, |part| there(part, false)) else { return stop };
+    // What time alone decides changes once, and is found at the end; what changes back before is left to the step.
+    let Some((low, high)) = first_change(&known, &[1.0], |part| there(part, false)) else { return stop };
     let is_of_time = !there(low, true).are_beyond(&known) && there(high, true).are_beyond(&known);
     let end = begin + low * length;
     if !is_of_time || is_at(begin, end) {
@@ -101,10 +102,10 @@ pub(super) fn stop_in_time<M: Method>(
     if spans_piece { begin + WITHIN_PIECE * (end - begin) } else { end }
 }
 
-/// The part of a step at which another piece begins first, from below and above.
-fn first_change(known: &Sides, mut sides: impl FnMut(f64) -> Sides) -> Option<(f64, f64)> {
+/// The part of a step at which another piece begins first, from below and above, if that is seen at one of these parts of it.
+fn first_change(known: &Sides, looks: &[f64], mut sides: impl FnMut(f64) -> Sides) -> Option<(f64, f64)> {
     let mut low = 0.0;
-    let mut high = LOOKS.into_iter().find(|part| {
+    let mut high = looks.iter().copied().find(|part| {
         let differs = sides(*part).are_beyond(known);
         low = if differs { low } else { *part };
         differs
@@ -144,7 +145,9 @@ pub(super) fn stop_at_switch<M: Method>(
             break;
         }
         let known = sides(motion, method, 0.0, between);
-        let Some((low, _)) = first_change(&known, |part| sides(motion, method, part, between)) else { break };
+        let Some((low, _)) = first_change(&known, &LOOKS, |part| sides(motion, method, part, between)) else {
+            break;
+        };
         let end = begin + low * length;
         if is_at(begin, end) {
             break;
