@@ -4,7 +4,7 @@ mod support;
 
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::{Integrator, Run, RunError, RunWarning, Settings, Span, Watch, simulate};
-use support::compile_source;
+use support::{compile_source, loose_rotor};
 
 fn run(text: &str, integrator: Option<Integrator>, span: Span) -> Run {
     let source = SourceFile { name: "test.toml".to_owned(), text: text.to_owned() };
@@ -15,33 +15,10 @@ fn run(text: &str, integrator: Option<Integrator>, span: Span) -> Run {
         .expect("a start")
 }
 
-/// A balanced rotor that slides in its bearing without friction: a driver has nothing to do.
-fn rotor(speed: f64) -> String {
-    format!(
-        r#"
-spec = 1
-name = "rotor"
-gravity = [0, "-9.81 m/s^2", 0]
-[points]
-O = [0, 0, 0]
-[bodies]
-b = {{ mass = "5 kg", centre = "O", inertia = ["0.01 kg m^2", "0.01 kg m^2", "0.01 kg m^2"] }}
-[joints]
-J = {{ revolute = ["ground", "b"], at = "O", axis = [0, 0, 1], drive = "2*pi*{speed}*t/(1 s)" }}
-[clearance.J]
-radial = "50 um"
-journal_radius = "10 mm"
-length = "20 mm"
-modulus = "100 GPa"
-restitution = 0.5
-"#
-    )
-}
-
 #[test]
 fn a_rotor_without_friction_passes_nothing_on_and_is_told_at_any_speed() {
     for speed in [0.02, 0.1, 0.5, 5.0] {
-        let run = run(&rotor(speed), None, Span::Turns(3.0));
+        let run = run(&loose_rotor(speed, ""), None, Span::Turns(3.0));
         assert_eq!(run.stopped, None, "{speed} Hz");
         let off = |warning: &RunWarning| matches!(warning, RunWarning::EnergyOff { .. });
         assert!(!run.warnings.iter().any(off), "{speed} Hz: {:?}", run.warnings);
@@ -56,7 +33,7 @@ fn a_rotor_without_friction_passes_nothing_on_and_is_told_at_any_speed() {
 fn the_same_rotor_in_steps_that_its_contact_does_not_bear_is_refused() {
     // Stable up to 0.3 ms.
     for step in [5e-4, 1e-3] {
-        let run = run(&rotor(5.0), Some(Integrator::Rk4 { step }), Span::Turns(3.0));
+        let run = run(&loose_rotor(5.0, ""), Some(Integrator::Rk4 { step }), Span::Turns(3.0));
         let wrong = |error: &RunError| {
             matches!(
                 error,

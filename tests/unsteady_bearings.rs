@@ -8,34 +8,17 @@ use linkwear_codegen::Options;
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::life::WearSource;
 use linkwear_runtime::{DynamicsSource, RevolutionSettings, Steadiness};
+use support::loose_rotor;
 
-/// A rotor of 5 kg in a bearing with a play of 50 um, at 5 Hz.
+/// A rotor of 5 kg at 5 Hz in a bearing that wears.
 fn rotor(friction: &str) -> String {
-    format!(
-        r#"
-spec = 1
-name = "rotor"
-gravity = [0, "-9.81 m/s^2", 0]
-[points]
-O = [0, 0, 0]
-[bodies]
-b = {{ mass = "5 kg", centre = "O", inertia = ["0.01 kg m^2", "0.01 kg m^2", "0.01 kg m^2"] }}
-[joints]
-J = {{ revolute = ["ground", "b"], at = "O", axis = [0, 0, 1], drive = "2*pi*5*t/(1 s)" }}
-[clearance.J]
-radial = "50 um"
-journal_radius = "10 mm"
-length = "20 mm"
-modulus = "100 GPa"
-restitution = 0.5
-{friction}
-[wear.J]
+    let wear = r#"[wear.J]
 coefficient = 1e-7
 hardness = "1 GPa"
 threshold = "60 um"
 area = "projected"
-"#
-    )
+"#;
+    loose_rotor(5.0, &format!("{friction}\n{wear}"))
 }
 
 /// How the wearing joints turn, unworn and with clearances of so many times as much.

@@ -135,3 +135,28 @@ impl Table {
         self.rows.len()
     }
 }
+
+/// A balanced rotor of 5 kg under its weight, driven at a speed [Hz] in a bearing with a play of 50 um; `more`: of that bearing, and
+/// behind it.
+pub fn loose_rotor(speed: f64, more: &str) -> String {
+    format!(
+        r#"
+spec = 1
+name = "rotor"
+gravity = [0, "-9.81 m/s^2", 0]
+[points]
+O = [0, 0, 0]
+[bodies]
+b = {{ mass = "5 kg", centre = "O", inertia = ["0.01 kg m^2", "0.01 kg m^2", "0.01 kg m^2"] }}
+[joints]
+J = {{ revolute = ["ground", "b"], at = "O", axis = [0, 0, 1], drive = "2*pi*{speed}*t/(1 s)" }}
+[clearance.J]
+radial = "50 um"
+journal_radius = "10 mm"
+length = "20 mm"
+modulus = "100 GPa"
+restitution = 0.5
+{more}
+"#
+    )
+}

@@ -41,6 +41,11 @@ pub(super) fn offset_places(
 /// Contacts whose offset no demanded start value fixes.
 pub(super) fn free_contacts(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<bool> {
     let columns = offset_columns(evaluator, t, q);
+    free_by(evaluator, &columns)
+}
+
+/// The same by how offsets move with the speeds.
+fn free_by(evaluator: &Evaluator<'_>, columns: &[[Vec<f64>; 3]]) -> Vec<bool> {
     let fixed = frozen_speeds(evaluator);
     let moved = |column: &[Vec<f64>; 3], speed: usize| column.iter().any(|row| row[speed].abs() > MOVES);
     columns.iter().map(|column| !(0..fixed.len()).any(|speed| fixed[speed] && moved(column, speed))).collect()
@@ -57,8 +62,12 @@ pub(super) fn free_offsets(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> 
 
 /// How they move with every free speed, row by row.
 pub fn rows_of_free_offsets(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) -> Vec<f64> {
-    let places = free_offsets(evaluator, t, q);
-    let columns = if places.is_empty() { Vec::new() } else { offset_columns(evaluator, t, q) };
+    if evaluator.clearances().is_empty() {
+        return Vec::new();
+    }
+    let columns = offset_columns(evaluator, t, q);
+    let free = free_by(evaluator, &columns);
+    let places = offset_places(evaluator, |joint| free[joint]);
     places.iter().flat_map(|(joint, axis)| &columns[*joint][*axis]).copied().collect()
 }
 
