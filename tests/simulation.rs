@@ -123,6 +123,14 @@ fn a_state_put_back_goes_on_with_the_same_bits() {
         let mut other = made.start(&settings);
         other.restore(&kept).expect("a state of the same mechanism");
         assert_eq!(rows(&mut other, times()), first, "{name}");
+        // And in one that began with other parameters: what it learnt at its start is not what the first one did.
+        let mut parameters = made.parameters();
+        parameters.iter_mut().for_each(|value| *value *= 1.5);
+        let system = &*made.system;
+        let mut foreign =
+            Simulation::start(system, made.description(), &parameters, &settings).expect("a start");
+        foreign.restore(&kept).expect("a state of the same mechanism");
+        assert!(rows(&mut foreign, times()) == first, "{name}");
     }
 }
 

@@ -6,7 +6,7 @@
 int main(void)
 {
     double parameters[RSSR_RIGID_PARAMETERS];
-    double y[RSSR_RIGID_STATE] = {0.0};
+    double y[RSSR_RIGID_STATE];
     rssr_rigid_memory memory;
     rssr_rigid_parameters own = rssr_rigid_default_parameters;
     const double step = 1e-4;
@@ -16,11 +16,8 @@ int main(void)
     own.speed = 2.0;
     rssr_rigid_set_parameters(&own, parameters);
 
-    /* A consistent start comes with the file. */
-    for (i = 0; i < RSSR_RIGID_COORDINATES + RSSR_RIGID_SPEEDS; ++i) {
-        y[i] = rssr_rigid_start_state[i];
-    }
-    status = rssr_rigid_begin(parameters, 0.0, y, &memory);
+    /* The start of the file, with these parameters. */
+    status = rssr_rigid_take_start(parameters, 0.0, y, &memory);
     for (i = 0; status == RSSR_RIGID_DONE && i < 5000; ++i) {
         status = rssr_rigid_rk4_step(parameters, i * step, step, y, &memory);
     }

@@ -129,25 +129,24 @@ static unit_status unit_see(unit_instance *unit, double before)
 
 static unit_status unit_stopped(const unit_instance *unit, int status)
 {
-    const char *const why = status == PFX_NEARLY_SINGULAR ? "the position is nearly singular"
+    const char *const why = status == PFX_OTHER_START     ? "what was set, or the time, asks for another start, which sources cannot assemble: "
+                                                            "set it by `linkwear fmu --set`, or use the unit's library; stopped"
+                            : status == PFX_NEARLY_SINGULAR ? "the position is nearly singular"
                             : status == PFX_OPEN_LOOP     ? "the loops cannot be closed"
                                                           : "a number is infinite, or none";
     return unit_fail(unit, "%s at %.17g s", why, unit->now.t);
 }
 
-/* Begins where the file starts, put onto the constraints with the parameters as they are. */
+/* Begins where the file starts, with the parameters as they are. */
 static unit_status unit_begin(unit_instance *unit)
 {
     unit_moment *const now = &unit->now;
-    int i, status;
+    int status;
     now->t = now->start;
     memset(now->y, 0, sizeof now->y);
-    for (i = 0; i < UNIT_STATES; ++i) {
-        now->y[i] = pfx_start_state[i];
-    }
     memset(&now->memory, 0, sizeof now->memory);
     now->is_seen = 0;
-    status = pfx_begin(now->parameters, now->t, now->y, &now->memory);
+    status = pfx_take_start(now->parameters, now->t, now->y, &now->memory);
     if (status != PFX_DONE) {
         return unit_stopped(unit, status);
     }

@@ -3,6 +3,7 @@
 mod compiler;
 mod rates;
 mod run;
+mod start;
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -14,15 +14,35 @@ pub enum Stepped {
     Whole,
 }
 
-/// Writes the derivative at each of several times and states, one behind the other.
-pub(crate) fn one_by_one(
-    (times, states): (&[f64], &[f64]),
-    derivatives: &mut [f64],
-    mut derivative: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), RunError>,
-) -> Result<(), RunError> {
-    let dimension = states.len() / times.len().max(1);
-    let states = states.chunks_exact(dimension).zip(derivatives.chunks_exact_mut(dimension));
-    times.iter().zip(states).try_for_each(|(t, (y, slope))| derivative(*t, y, slope))
+/// States beside one: each differs from it in one component, and the last one in the time alone.
+pub struct Beside<'a> {
+    /// The time of all but the last.
+    pub t: f64,
+    /// The one that they are beside.
+    pub y: &'a [f64],
+    /// What its first components are instead, one in each state.
+    pub others: &'a [f64],
+    /// The time of the last.
+    pub later: f64,
+}
+
+impl Beside<'_> {
+    /// Writes the derivative at each, one behind the other. `state`: storage for one.
+    pub(crate) fn one_by_one(
+        &self,
+        state: &mut [f64],
+        derivatives: &mut [f64],
+        mut derivative: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), RunError>,
+    ) -> Result<(), RunError> {
+        state.copy_from_slice(self.y);
+        let mut slopes = derivatives.chunks_exact_mut(self.y.len());
+        for ((place, other), slope) in self.others.iter().enumerate().zip(&mut slopes) {
+            state[place] = *other;
+            derivative(self.t, state, slope)?;
+            state[place] = self.y[place];
+        }
+        slopes.next().map_or(Ok(()), |slope| derivative(self.later, state, slope))
+    }
 }
 
 /// An initial value problem `y' = f(t, y)`, perhaps with constraints that a projection keeps.
@@ -33,18 +53,18 @@ pub trait Problem {
     /// If it has no value there; an adaptive method then tries a shorter step.
     fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError>;
 
-    /// Writes `f` at several times and states, one behind the other: states beside the one of the last derivative, which no part of
-    /// the solution will come through.
+    /// Writes `f` at states beside that of the last derivative, one behind the other: no part of the solution will come through them.
+    /// `state`: storage for one.
     ///
     /// # Errors
     /// As [`Self::derivative`].
     fn derivatives(
         &mut self,
-        times: &[f64],
-        states: &[f64],
+        beside: &Beside<'_>,
+        state: &mut [f64],
         derivatives: &mut [f64],
     ) -> Result<(), RunError> {
-        one_by_one((times, states), derivatives, |t, y, derivative| self.derivative(t, y, derivative))
+        beside.one_by_one(state, derivatives, |t, y, derivative| self.derivative(t, y, derivative))
     }
 
     /// Writes the end of a step of the classical Runge-Kutta method, and the slope at its last inner stage where that is asked for, if it

@@ -7,7 +7,7 @@
 use core::ops::Range;
 
 use super::adaptive::Step;
-use super::problem::Problem;
+use super::problem::{Beside, Problem};
 use crate::error::RunError;
 use crate::linear::{Lu, add_scaled, dot};
 
@@ -27,9 +27,10 @@ struct Follower {
 pub(super) struct StageSystem {
     /// Where the step begins that the derivatives are for.
     known_at: Option<f64>,
-    /// Times, states beside the begin, their slopes: one for each deciding component, and one for the time, which comes last.
-    times: Vec<f64>,
-    states: Vec<f64>,
+    /// What each deciding component is in the state beside the begin that differs in it, and storage for such a state.
+    others: Vec<f64>,
+    state: Vec<f64>,
+    /// Slopes in those states, and then a little later; derivatives after that.
     slopes: Vec<f64>,
     followers: Vec<Follower>,
     /// The components that the matrix is of: one by one, and in runs of neighbours.
@@ -65,28 +66,24 @@ impl StageSystem {
             self.prepare(problem, step.y.len());
         }
         let all = self.dimension;
-        let by_time = self.times.len() - 1;
+        let deciding = self.others.len();
+        for (place, (other, value)) in self.others.iter_mut().zip(step.y).enumerate() {
+            *other = value + DIFFERENCE * value.abs().max(problem.scale(place));
+        }
         // Of a step however short the time is another one.
         let later = step.t + (DIFFERENCE * step.length).max(4.0 * f64::EPSILON * step.t.abs());
-        self.times.fill(step.t);
-        self.times[by_time] = later;
-        for (place, state) in self.states.chunks_exact_mut(all).enumerate() {
-            state.copy_from_slice(step.y);
-            if place < by_time {
-                state[place] += DIFFERENCE * step.y[place].abs().max(problem.scale(place));
-            }
-        }
-        problem.derivatives(&self.times, &self.states, &mut self.slopes)?;
-        let beside = self.states.chunks_exact(all).zip(self.slopes.chunks_exact_mut(all));
-        for (place, (state, column)) in beside.enumerate() {
-            // What the width is after rounding.
-            let width = if place < by_time { state[place] - step.y[place] } else { later - step.t };
+        let beside = Beside { t: step.t, y: step.y, others: &self.others, later };
+        problem.derivatives(&beside, &mut self.state, &mut self.slopes)?;
+        // What the widths are after rounding.
+        let widths = self.others.iter().zip(step.y).map(|(other, value)| other - value);
+        let widths = widths.chain([later - step.t]);
+        for (column, width) in self.slopes.chunks_exact_mut(all).zip(widths) {
             let per_width = 1.0 / width;
             column.iter_mut().zip(slope).for_each(|(value, slope)| *value = (*value - slope) * per_width);
         }
         self.of_integrals.clear();
-        for integral in by_time..all {
-            let columns = self.slopes.chunks_exact(all).take(by_time);
+        for integral in deciding..all {
+            let columns = self.slopes.chunks_exact(all).take(deciding);
             self.of_integrals.extend(columns.map(|column| column[integral]));
         }
         self.by_followers.clear();
@@ -114,9 +111,9 @@ impl StageSystem {
         self.followers = followers.collect();
         let size = self.rest.len();
         self.dimension = dimension;
-        self.times = vec![0.0; deciding + 1];
-        self.states = vec![0.0; (deciding + 1) * dimension];
-        self.slopes = self.states.clone();
+        self.others = vec![0.0; deciding];
+        self.state = vec![0.0; dimension];
+        self.slopes = vec![0.0; (deciding + 1) * dimension];
         self.right = vec![0.0; size];
         self.lu = Some(Lu::new(size));
     }
@@ -144,12 +141,12 @@ impl StageSystem {
 
     /// Derivative of the slopes by time.
     pub(super) fn by_time(&self) -> &[f64] {
-        &self.slopes[(self.times.len() - 1) * self.dimension..]
+        &self.slopes[self.others.len() * self.dimension..]
     }
 
     /// Solves for the right-hand side `b`.
     pub(super) fn solve(&mut self, b: &[f64], solution: &mut [f64]) {
-        let (size, deciding) = (self.rest.len(), self.times.len() - 1);
+        let (size, deciding) = (self.rest.len(), self.others.len());
         of_runs(&self.runs, &mut self.right, b, |right, b| *right = b);
         if size > 0 {
             for (follower, column) in self.followers.iter().zip(self.by_followers.chunks_exact(size)) {

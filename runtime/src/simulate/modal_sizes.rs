@@ -18,7 +18,7 @@ const NOTHING: f64 = 1e-12;
 struct Mode {
     coordinate: usize,
     speed: usize,
-    /// Acceleration against a deflection of 1, at the start [1/s²].
+    /// Acceleration against a deflection of 1, at the start [1/s²]; 0 if nothing holds it there.
     stiffness: f64,
     /// Part of its size by which its errors are judged.
     share: f64,
@@ -40,7 +40,7 @@ impl ModalSizes {
         let places: Vec<(usize, usize)> = evaluator.description().modes().collect();
         let mut q = q.to_vec();
         let shares = shares(evaluator, (t, &q, v));
-        let modes = places.into_iter().filter_map(|(coordinate, speed)| {
+        let modes = places.into_iter().map(|(coordinate, speed)| {
             let value = q[coordinate];
             let mut at = |value| {
                 q[coordinate] = value;
@@ -49,14 +49,15 @@ impl ModalSizes {
             let stiffness = (at(value - DIFFERENCE) - at(value + DIFFERENCE)) / (2.0 * DIFFERENCE);
             q[coordinate] = value;
             let share = shares[speed];
-            (stiffness > 0.0 && stiffness.is_finite()).then_some(Mode { coordinate, speed, stiffness, share })
+            let is_held = stiffness > 0.0 && stiffness.is_finite();
+            Mode { coordinate, speed, stiffness: if is_held { stiffness } else { 0.0 }, share }
         });
         Self { modes: modes.collect(), load: 0.0 }
     }
 
     /// Learns from a state that counts; whether anything changed.
     pub(super) fn note(&mut self, q: &[f64], accelerations: &[f64]) -> bool {
-        let loads = self.modes.iter().map(|mode| {
+        let loads = self.held().map(|mode| {
             let held = mode.stiffness * q[mode.coordinate];
             held.abs().max(accelerations[mode.speed].abs())
         });
@@ -68,13 +69,17 @@ impl ModalSizes {
 
     /// Frequency of the fastest mode [rad/s]; 0 without modes.
     pub(super) fn fastest(&self) -> f64 {
-        self.modes.iter().fold(0.0, |fastest, mode| fastest.max(mode.stiffness.sqrt()))
+        self.held().fold(0.0, |fastest, mode| fastest.max(mode.stiffness.sqrt()))
+    }
+
+    fn held(&self) -> impl Iterator<Item = &Mode> {
+        self.modes.iter().filter(|mode| mode.stiffness > 0.0)
     }
 
     /// Writes the sizes, as far as errors are judged by them, among those of all coordinates and speeds, if a load is known.
     pub(super) fn write(&self, (coordinates, speeds): (&mut [f64], &mut [f64])) {
         if self.load > 0.0 {
-            for mode in &self.modes {
+            for mode in self.held() {
                 let load = self.load * mode.share;
                 coordinates[mode.coordinate] = (load / mode.stiffness).min(1.0);
                 speeds[mode.speed] = (load / mode.stiffness.sqrt()).min(1.0);
@@ -85,6 +90,10 @@ impl ModalSizes {
     /// As [`crate::Evaluator::visit_memory`].
     pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         visit(&mut self.load);
+        for mode in &mut self.modes {
+            visit(&mut mode.stiffness);
+            visit(&mut mode.share);
+        }
     }
 }
 

@@ -163,6 +163,10 @@ impl<'a> ConstrainedMotion<'a> {
     /// As [`crate::Evaluator::visit_memory`], of all that it stands on too.
     pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         self.dynamics.visit_memory(visit);
+        // Sizes are those of the start, which may have had other parameters.
+        visit(&mut self.arm);
+        self.scales.iter_mut().chain(&mut self.sizes).for_each(&mut *visit);
+        self.use_sizes();
         self.modal.visit_memory(visit);
         self.modal.write(self.scales.split_at_mut(self.coordinates));
         visit(&mut self.energy_scale);
@@ -258,12 +262,11 @@ impl<'a> ConstrainedMotion<'a> {
     /// Learns at a state how large the mechanism is, and how small the motion in its clearances.
     pub(super) fn learn_sizes(&mut self, t: f64, state: &State) {
         self.arm = self.dynamics.evaluator.longest_arm(t, &state.q, &state.v);
-        self.projector.set_arm(self.arm);
-        self.dynamics.passage.projector.set_arm(self.arm);
         if self.contacts == 0 {
             if let Some(size) = small_motion(&self.dynamics.evaluator, state) {
                 self.scales.fill(size);
             }
+            self.use_sizes();
             return;
         }
         self.sizes = motion_sizes(&mut self.dynamics.evaluator, t, state);
@@ -288,8 +291,17 @@ impl<'a> ConstrainedMotion<'a> {
                 }
             }
         }
-        self.projector.set_sizes(&self.sizes);
-        self.dynamics.passage.projector.set_sizes(&self.sizes);
+        self.use_sizes();
+    }
+
+    /// Projections go by the sizes that are known now.
+    fn use_sizes(&mut self) {
+        for projector in [&mut self.projector, &mut self.dynamics.passage.projector] {
+            projector.set_arm(self.arm);
+            if self.contacts > 0 {
+                projector.set_sizes(&self.sizes);
+            }
+        }
     }
 
     /// Coordinates, speeds, and (work supplied, work dissipated) of a flat state.

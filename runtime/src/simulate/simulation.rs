@@ -369,21 +369,21 @@ impl<'a> Simulation<'a> {
     /// # Errors
     /// If it does not belong to this mechanism and method; nothing has changed then.
     pub fn restore(&mut self, kept: &SimulationState) -> Result<(), SetupError> {
-        let mut length = 0;
-        self.visit_memory(&mut |_| length += 1);
-        self.motion.visit_memory(&mut |_| length += 1);
+        let (mut own, mut motion) = (0, 0);
+        self.visit_memory(&mut |_| own += 1);
+        self.motion.visit_memory(&mut |_| motion += 1);
         let joints = self.motion.dynamics.evaluator.clearances().states().len();
-        kept.fits(length, joints, self.sampler.angles.count())?;
+        kept.fits(own + motion, joints, self.sampler.angles.count())?;
         self.motion.dynamics.evaluator.set_parameters(&kept.parameters)?;
         self.t = kept.t;
-        let mut numbers = kept.memory.iter();
-        let mut put = |number: &mut f64| *number = numbers.next().copied().unwrap_or(*number);
-        self.visit_memory(&mut put);
+        let (own_memory, motion_memory) = kept.memory.split_at(own);
+        self.visit_memory(&mut put(own_memory));
         self.motion.dynamics.evaluator.clearances_mut().states_mut().clone_from_slice(&kept.joints);
         self.sampler.angles.put_back(&kept.angles);
+        self.motion.visit_memory(&mut put(motion_memory));
         self.sampler.resume(&mut self.motion);
-        // Last: looking at the state has changed what solvers remember.
-        self.motion.visit_memory(&mut put);
+        // Once more: looking at the state has changed what solvers remember.
+        self.motion.visit_memory(&mut put(motion_memory));
         Ok(())
     }
 
@@ -398,4 +398,10 @@ impl<'a> Simulation<'a> {
     pub fn finish(self) -> Run {
         self.sampler.finish(&self.motion, step_limits(self.integrator), None)
     }
+}
+
+/// What writes numbers into the places that it is shown, one after the other.
+fn put(numbers: &[f64]) -> impl FnMut(&mut f64) + '_ {
+    let mut numbers = numbers.iter();
+    move |place| *place = numbers.next().copied().unwrap_or(*place)
 }

@@ -2,6 +2,7 @@
 //! slopes, integrals included. Allocates only when made. Without contacts.
 
 use crate::evaluate::Evaluator;
+use crate::integrate::Beside;
 use crate::system::{Entry, STATES, SideBySide, Sizes};
 
 /// Answers [`Entry::Derivative`] at several states.
@@ -37,26 +38,23 @@ impl<'a> Slopes<'a> {
 
     /// Evaluates up to [`Self::AT_ONCE`] flat states at their times; whether all that is told of them is finite.
     pub(super) fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, times: &[f64], states: &[f64]) -> bool {
-        let Sizes { parameters, coordinates, speeds, .. } = self.sizes;
-        let (state, all) = (coordinates + speeds, self.sizes.flat_state());
-        let (known, asked) = self.question.split_at_mut(parameters);
+        let (state, all) = (self.sizes.coordinates + self.sizes.speeds, self.sizes.flat_state());
+        let (known, asked) = self.question.split_at_mut(self.sizes.parameters);
+        put_parameters(known, evaluator);
         let (time, asked) = asked.split_at_mut(1);
-        // As they are now: a run may be given others on its way.
-        for (place, value) in known.iter_mut().zip(evaluator.parameters()) {
-            *place = [*value; STATES];
-        }
         let rows: [&[f64]; STATES] = std::array::from_fn(|lane| {
             // Places without a state ask for the first one again, and nobody reads what they give.
             let row = if lane < times.len() { lane } else { 0 };
-            for (place, value) in known[self.inputs..].iter_mut().zip(evaluator.inputs(times[row])) {
-                place[lane] = *value;
-            }
-            time[0][lane] = times[row];
+            put_time((&mut known[self.inputs..], &mut time[0]), lane, evaluator, times[row]);
             &states[row * all..][..state]
         });
         for (i, place) in asked[..state].iter_mut().enumerate() {
             *place = rows.map(|row| row[i]);
         }
+        self.ask()
+    }
+
+    fn ask(&mut self) -> bool {
         self.system.evaluate(Entry::Derivative, &self.question, &mut self.answer, &mut self.workspace);
         let mut finite = [0.0; STATES];
         for value in &self.answer {
@@ -66,24 +64,44 @@ impl<'a> Slopes<'a> {
         finite == [0.0; STATES]
     }
 
-    /// Writes the slopes of flat states at their times, one behind the other; whether all are finite.
+    /// Writes the slopes of flat states beside one, one behind the other; whether all are finite.
     pub(super) fn write(
         &mut self,
         evaluator: &mut Evaluator<'_>,
-        (times, states): (&[f64], &[f64]),
+        beside: &Beside<'_>,
         slopes: &mut [f64],
     ) -> bool {
-        let (state, all) = (self.sizes.coordinates + self.sizes.speeds, self.sizes.flat_state());
+        let Sizes { parameters, coordinates, speeds, .. } = self.sizes;
+        let (state, all) = (coordinates + speeds, self.sizes.flat_state());
         let powers = self.answer.len() - (all - state);
+        let (known, asked) = self.question.split_at_mut(parameters);
+        put_parameters(known, evaluator);
+        let (time, asked) = asked.split_at_mut(1);
+        for lane in 0..STATES {
+            put_time((&mut known[self.inputs..], &mut time[0]), lane, evaluator, beside.t);
+        }
+        asked.iter_mut().zip(&beside.y[..state]).for_each(|(place, value)| *place = [*value; STATES]);
+        let count = beside.others.len();
         let mut finite = true;
-        let parts =
-            times.chunks(STATES).zip(states.chunks(STATES * all)).zip(slopes.chunks_mut(STATES * all));
-        for ((times, states), slopes) in parts {
-            finite &= self.evaluate(evaluator, times, states);
-            let (state, powers) = (&self.answer[..state], &self.answer[powers..]);
+        for (group, slopes) in slopes.chunks_mut(STATES * all).enumerate() {
+            let here = group * STATES..((group + 1) * STATES).min(count);
+            let others = here.clone().zip(&beside.others[here.clone()]);
+            let (known, asked) = self.question.split_at_mut(parameters);
+            let (time, asked) = asked.split_at_mut(1);
+            for (lane, (place, other)) in others.enumerate() {
+                asked[place][lane] = *other;
+            }
+            if let Some(lane) = count.checked_sub(group * STATES).filter(|lane| *lane < STATES) {
+                put_time((&mut known[self.inputs..], &mut time[0]), lane, evaluator, beside.later);
+            }
+            finite &= self.ask();
+            let (rates, powers) = (&self.answer[..state], &self.answer[powers..]);
             for (lane, slope) in slopes.chunks_exact_mut(all).enumerate() {
-                let told = state.iter().chain(powers);
+                let told = rates.iter().chain(powers);
                 slope.iter_mut().zip(told).for_each(|(place, value)| *place = value[lane]);
+            }
+            for place in here {
+                self.question[parameters + 1 + place] = [beside.y[place]; STATES];
             }
         }
         finite
@@ -104,4 +122,24 @@ impl<'a> Slopes<'a> {
             part.iter().map(move |value| value[lane])
         })
     }
+}
+
+/// As they are now: a run may be given others on its way.
+fn put_parameters(known: &mut [[f64; STATES]], evaluator: &Evaluator<'_>) {
+    for (place, value) in known.iter_mut().zip(evaluator.parameters()) {
+        *place = [*value; STATES];
+    }
+}
+
+/// A state's time, and inputs at it.
+fn put_time(
+    (inputs, time): (&mut [[f64; STATES]], &mut [f64; STATES]),
+    lane: usize,
+    evaluator: &mut Evaluator<'_>,
+    t: f64,
+) {
+    for (place, value) in inputs.iter_mut().zip(evaluator.inputs(t)) {
+        place[lane] = *value;
+    }
+    time[lane] = t;
 }

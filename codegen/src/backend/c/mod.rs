@@ -145,7 +145,8 @@ const PREAMBLE: &str = "\
 ";
 
 fn source(input: &CInput<'_>, sizes: &Sizes, splits: &[Split], named: &dyn Fn(String) -> String) -> String {
-    let (stepping, mut called) = step::functions(input.description, sizes, input.joints);
+    let (stepping, mut called) =
+        step::functions(input.description, sizes, input.joints, input.start.is_some());
     called.extend(input.tapes.iter().zip(splits).flat_map(|(tape, split)| elementary::of_tape(tape, split)));
     let mut text =
         format!("#include \"{}\"\n\n{PREAMBLE}{}\n", input.header_name, elementary::functions(&called));

@@ -331,6 +331,122 @@ int pfx_begin(const double *parameters, double t, double *y, pfx_memory *memory)
 //.
 }
 
+//? start
+/* Where assembly starts from. */
+static void pfx_wish(const double *parameters, double t, double *answer)
+{
+    double x[PFX_START_IN];
+    double w[PFX_WORKSPACE + 1];
+    int i;
+    for (i = 0; i < PFX_PARAMETERS; ++i) {
+        x[i] = parameters[i];
+    }
+    x[PFX_PARAMETERS] = t;
+    pfx_start(x, answer, w);
+}
+
+//? start contacts
+/* What decides where journals rest. */
+static void pfx_rest(const double *parameters, double t, const double *y, double *answer)
+{
+    double x[PFX_CONTACTS_IN];
+    double w[PFX_WORKSPACE + 1];
+    int i;
+QUESTION
+    pfx_wish(parameters, t, answer);
+    answer += PFX_START_OUT;
+    pfx_prescribed(x, answer, w);
+    answer += PFX_PRESCRIBED_OUT;
+    pfx_closure(x, answer, w);
+    answer += PFX_CLOSURE_OUT;
+    pfx_contacts(x, answer, w);
+}
+
+//? start loops
+/* Whether values that the file gives are kept. */
+static int pfx_are_kept(const double *wish, const double *y)
+{
+    int i;
+    for (i = 0; i < PFX_COORDINATES + PFX_SPEEDS; ++i) {
+        const double size = fabs(wish[i]) < 1.0 ? 1.0 : fabs(wish[i]);
+        if (pfx_is_given[i] && !(fabs(y[i] - wish[i]) <= 1e-8 * size)) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Goes from the start of the file to these parameters and this time in so many parts, its loops closed all the way. */
+static int pfx_follow(const double *known, const double *parameters, double t, int parts, double *y, pfx_memory *memory)
+{
+    double way[PFX_PARAMETERS + 1];
+    int part, i, status = PFX_DONE;
+    for (i = 0; i < PFX_COORDINATES + PFX_SPEEDS; ++i) {
+        y[i] = pfx_start_state[i];
+    }
+    for (part = 1; part <= parts && status == PFX_DONE; ++part) {
+        const double share = part / (double)parts;
+        for (i = 0; i < PFX_PARAMETERS; ++i) {
+            way[i] = part == parts ? parameters[i] : known[i] + share * (parameters[i] - known[i]);
+        }
+        status = pfx_begin(way, part == parts ? t : share * t, y, memory);
+    }
+    return status;
+}
+
+//? start
+int pfx_take_start(const double *parameters, double t, double *y, pfx_memory *memory)
+{
+    double known[PFX_PARAMETERS + 1] = {0.0};
+    int is_known = t == 0.0;
+    int i;
+//? parameters
+    pfx_set_parameters(&pfx_default_parameters, known);
+//? start
+    for (i = 0; i < PFX_PARAMETERS; ++i) {
+        is_known = is_known && parameters[i] == known[i];
+    }
+    for (i = 0; i < PFX_STATE; ++i) {
+        y[i] = i < PFX_COORDINATES + PFX_SPEEDS ? pfx_start_state[i] : 0.0;
+    }
+    if (is_known) {
+        return pfx_begin(parameters, t, y, memory);
+    }
+//? start contacts
+    {
+        double rests[2][PFX_START_OUT + PFX_PRESCRIBED_OUT + PFX_CLOSURE_OUT + PFX_CONTACTS_OUT];
+        pfx_rest(known, 0.0, y, rests[0]);
+        pfx_rest(parameters, t, y, rests[1]);
+        for (i = 0; i < (int)(sizeof rests[0] / sizeof rests[0][0]); ++i) {
+            if (!(rests[0][i] == rests[1][i])) {
+                return PFX_OTHER_START;
+            }
+        }
+    }
+    return pfx_begin(parameters, t, y, memory);
+//? start loops
+    {
+        double wish[PFX_START_OUT];
+        int parts = 1, status;
+        /* A start too far away stays open: in parts it is near. */
+        do {
+            status = pfx_follow(known, parameters, t, parts, y, memory);
+            parts *= 4;
+        } while (status != PFX_DONE && parts <= 4096);
+        pfx_wish(parameters, t, wish);
+        for (i = 0; i < PFX_SPEEDS; ++i) {
+            y[PFX_COORDINATES + i] = wish[PFX_COORDINATES + i];
+        }
+        status = status == PFX_DONE ? pfx_begin(parameters, t, y, memory) : status;
+        return status == PFX_DONE && pfx_are_kept(wish, y) ? PFX_DONE : PFX_OTHER_START;
+    }
+//? start open
+    pfx_wish(parameters, t, y);
+    return pfx_begin(parameters, t, y, memory);
+//? start
+}
+
+//.
 int pfx_rk4_step(const double *parameters, double t, double step, double *y, pfx_memory *memory)
 {
     double stage[PFX_STATE];

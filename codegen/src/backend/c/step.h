@@ -16,12 +16,19 @@ enum {
     /* loops stay open after PFX_CORRECTIONS corrections */
     PFX_OPEN_LOOP = 2,
     /* a number is infinite, or none */
-    PFX_NOT_FINITE = 3
+    PFX_NOT_FINITE = 3,
+    /* with these parameters the start has to be found anew, which the generator does */
+    PFX_OTHER_START = 4
 };
 
 //? start
 /* Consistent coordinates and speeds at t = 0 with the parameters of the file. */
 extern const double pfx_start_state[PFX_COORDINATES + PFX_SPEEDS];
+
+/* Writes the start of the file as it is with these parameters at this time, integrals at zero, and begins a run there. Loops are followed
+ * from where they are closed with the parameters of the file. Out: PFX_DONE, or why it cannot: PFX_OTHER_START where loops end apart,
+ * given values would not be kept, or journals rest elsewhere. */
+int pfx_take_start(const double *parameters, double t, double *y, pfx_memory *memory);
 
 //? contacts
 /* The laws of all joints with clearance. In: motions, the first 10 PFX_CONTACTS numbers that pfx_contacts answers; contacts,

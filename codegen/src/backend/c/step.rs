@@ -35,6 +35,7 @@ pub fn functions(
     description: &Description,
     sizes: &Sizes,
     joints: &[Clearance],
+    has_start: bool,
 ) -> (String, BTreeSet<Function>) {
     let layout = Layout::new(&description.motions);
     let free: Vec<Motion> = layout.free().map(|group| group.motion).collect();
@@ -46,6 +47,11 @@ pub fn functions(
         "rows" => sizes.rows > 0,
         "rotation" => moves,
         "pose" => moves && has_pose,
+        "start" => has_start,
+        "start contacts" => has_start && sizes.contacts > 0,
+        "start loops" => has_start && sizes.contacts == 0 && sizes.rows > 0,
+        "start open" => has_start && sizes.contacts == 0 && sizes.rows == 0,
+        "parameters" => !description.parameters.is_empty(),
         _ => has_quaternions,
     };
     let mut called = BTreeSet::new();
@@ -60,6 +66,14 @@ pub fn functions(
             "/* Of every kept row, its row among all. */\nstatic const int pfx_kept[] = {{{}}};\n\n",
             kept.join(", ")
         );
+    }
+    if has("start loops") {
+        let given = description.coordinates.iter().map(|one| one.held);
+        let given = given.chain(description.speeds.iter().map(|one| one.held));
+        let list: Vec<String> = given.map(|is_given| u8::from(is_given).to_string()).collect();
+        let doc = "Of every coordinate and speed, whether the file gives its start value.";
+        let list = list.join(", ");
+        let _ = write!(text, "/* {doc} */\nstatic const unsigned char pfx_is_given[] = {{{list}}};\n\n");
     }
     text.push_str(&chosen(include_str!("motion.c"), &has));
     text.push_str(&on_manifold(&layout, sizes.rows > 0));

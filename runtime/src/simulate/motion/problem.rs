@@ -5,7 +5,7 @@ use super::{
 };
 use crate::error::RunError;
 use crate::evaluate::CLOSED;
-use crate::integrate::{Problem, Stepped, one_by_one};
+use crate::integrate::{Beside, Problem, Stepped};
 use crate::linear::replace;
 use crate::simulate::slopes::Slopes;
 use crate::system::StepOf;
@@ -32,8 +32,8 @@ impl Problem for ConstrainedMotion<'_> {
 
     fn derivatives(
         &mut self,
-        times: &[f64],
-        states: &[f64],
+        beside: &Beside<'_>,
+        state: &mut [f64],
         derivatives: &mut [f64],
     ) -> Result<(), RunError> {
         match self.alone.checked_sub(1) {
@@ -50,15 +50,15 @@ impl Problem for ConstrainedMotion<'_> {
         let regular = self.dynamics.nearness() >= PROJECTED_STAGES;
         let outcome = match &mut slopes {
             Some(slopes) if regular => {
-                let finite = slopes.write(&mut self.dynamics.evaluator, (times, states), derivatives);
+                let finite = slopes.write(&mut self.dynamics.evaluator, beside, derivatives);
                 // Without contacts.
-                if finite { Ok(()) } else { Err(self.infinite_power(times[0], &[])) }
+                if finite { Ok(()) } else { Err(self.infinite_power(beside.t, &[])) }
             }
-            _ => one_by_one((times, states), derivatives, |t, y, slope| self.derivative(t, y, slope)),
+            _ => beside.one_by_one(state, derivatives, |t, y, slope| self.derivative(t, y, slope)),
         };
         self.slopes = slopes;
         self.dynamics.resume(aside);
-        self.dynamics.evaluations += times.len() as u64;
+        self.dynamics.evaluations += beside.others.len() as u64 + 1;
         outcome
     }
 
