@@ -3,9 +3,11 @@
 
 mod leaving;
 mod measuring;
+mod recurrence;
 mod settings;
 mod settling;
 mod side_by_side;
+mod slow_states;
 mod stability;
 mod steadiness;
 mod wearing;
@@ -23,10 +25,12 @@ use crate::watch::Watch;
 use crate::wear::ContactMeasure;
 use leaving::leaves;
 use measuring::{Done, Measuring};
+use recurrence::Recurrence;
 pub use settings::RevolutionSettings;
 pub use settling::Orbit;
 use settling::Settling;
 use side_by_side::{Begun, SideBySide};
+use slow_states::SlowStates;
 pub use steadiness::Steadiness;
 use wearing::Wearing;
 
@@ -38,6 +42,9 @@ pub struct DynamicsSource<'a> {
     start: TurnState,
     wearing: Wearing<'a>,
     settings: RevolutionSettings,
+    /// After how many turns drives and forces repeat, once that was asked: so many are measured as one.
+    recurrence: Option<Recurrence>,
+    slow: SlowStates,
     /// Where turns are run, if not by the runner: elsewhere, or in whole steps.
     queue: Option<TurnQueue>,
     whole: Option<WholeSteps<'a>>,
@@ -79,6 +86,7 @@ impl<'a> DynamicsSource<'a> {
             TurnRunner::new(system, description, parameters, settings.integrator, SINGULAR_PIVOT)?;
         let wearing = Wearing::new(description, &runner.clearances());
         let start = runner.state();
+        let slow = SlowStates::new(&runner);
         let (warnings, steadiness, beginning) = (Vec::new(), Vec::new(), Vec::new());
         Ok(Self {
             system,
@@ -86,6 +94,8 @@ impl<'a> DynamicsSource<'a> {
             start,
             wearing,
             settings,
+            recurrence: None,
+            slow,
             queue: None,
             whole: None,
             bundle: None,
@@ -163,7 +173,9 @@ impl<'a> DynamicsSource<'a> {
 
     /// Sets the joints, to go on from an orbit or to begin.
     fn begin(&mut self, joints: &[JointWear], from: Option<&Orbit>) -> Result<Measuring, RunError> {
+        let recurrence = self.recurrence()?;
         self.runner.restore(from.map_or(&self.start, |orbit| &orbit.turn))?;
+        self.slow.forget();
         let mut far = 1.0_f64;
         for ((at, unworn), joint) in self.wearing.joints.iter().zip(joints) {
             let surfaces = [joint.profile.clone(), joint.journal.clone()];
@@ -173,15 +185,44 @@ impl<'a> DynamicsSource<'a> {
             let ratio = (unworn + worn) / (unworn + before);
             far = far.max(ratio).max(1.0 / ratio);
         }
-        for _ in 0..from.map_or(0, |orbit| orbit.lasting) {
-            self.turn((0.0, 0.0))?;
+        for _ in 0..from.map_or(recurrence.after, |orbit| orbit.lasting) {
+            self.one_turn((0.0, 0.0))?;
+        }
+        if from.is_none() && recurrence.after > 0 {
+            self.runner.rest_journals();
         }
         let settling = Settling::new(from, far, self.settings.settled());
-        Ok(Measuring::new(&self.settings, settling, self.wearing.rooms(joints)))
+        Ok(Measuring::new(&self.settings, settling, self.wearing.rooms(joints), recurrence.every))
     }
 
-    /// Runs one turn, as a part of a measurement.
+    /// After how many turns drives and forces repeat; who says how turns are to be measured is not asked.
+    fn recurrence(&mut self) -> Result<Recurrence, RunError> {
+        let is_told = self.settings.settle.is_some() || self.settings.average > 1;
+        let known = match self.recurrence {
+            Some(known) => known,
+            None if is_told => Recurrence::EACH,
+            None => {
+                self.runner.restore(&self.start)?;
+                Recurrence::of(&mut self.runner)?
+            }
+        };
+        self.recurrence = Some(known);
+        Ok(known)
+    }
+
+    /// Runs so many turns as one, as a part of a measurement, as drives and forces need to repeat.
     fn turn(&mut self, (from, to): (f64, f64)) -> Result<TurnMeasures, RunError> {
+        let every = self.recurrence()?.every;
+        if every == 1 {
+            return self.one_turn((from, to));
+        }
+        let part = |turn: u32| from + (to - from) * f64::from(turn) / f64::from(every);
+        let turns = (0..every).map(|turn| self.one_turn((part(turn), part(turn + 1))));
+        Ok(TurnMeasures::mean(turns.collect::<Result<_, _>>()?))
+    }
+
+    /// Runs one turn.
+    fn one_turn(&mut self, (from, to): (f64, f64)) -> Result<TurnMeasures, RunError> {
         let watch = self.watch.piece(from, to);
         match (&self.queue, &mut self.whole) {
             (Some(queue), _) => queue.measure(&mut self.runner, watch),
@@ -192,6 +233,10 @@ impl<'a> DynamicsSource<'a> {
 
     /// The lanes, if there are any.
     fn take_lanes(&mut self) -> Result<Option<Box<dyn LaneTurns<'a> + 'a>>, RunError> {
+        // Lanes run a turn after the other, which all count.
+        if !self.slow.is_empty() || self.recurrence()?.every > 1 {
+            return Ok(None);
+        }
         if let (None, Some(bundle)) = (&self.lanes, self.bundle) {
             let (system, description) = (self.system, self.wearing.description);
             let integrator = self.settings.integrator;
@@ -213,7 +258,12 @@ impl<'a> DynamicsSource<'a> {
     /// Runs turns until a measurement is done.
     fn all_turns(&mut self, measuring: &mut Measuring) -> Result<(), RunError> {
         loop {
+            self.slow.begin(&self.runner);
             let turn = self.turn(measuring.next())?;
+            let waits = self.settings.settle.is_none() && !self.slow.is_empty();
+            if waits && !self.slow.have_settled(&mut self.runner, self.settings.settled())? {
+                continue;
+            }
             let is_done = measuring.take(turn, &self.wearing);
             let is_open = is_done && measuring.shows_nothing(&self.wearing);
             if is_done && !(is_open && leaves(&mut self.runner, measuring, self.watch)?) {

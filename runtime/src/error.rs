@@ -241,6 +241,17 @@ pub enum RunError {
         /// Time up to which was searched.
         t: f64,
     },
+    /// Turns never come to be alike.
+    #[error(
+        "{what} in {turns} turns, so no turn stands for the others; say after how many turns to measure (settle), or over how many to \
+         take the mean (average)"
+    )]
+    NeverAlike {
+        /// What goes on changing.
+        what: String,
+        /// Turns that were looked at.
+        turns: usize,
+    },
     /// The step size control found no step that meets the tolerance.
     #[error(
         "at t = {t} s the step had to shrink below {step:.3e} s, because of `{variable}`; the mechanism may pass \

@@ -220,6 +220,11 @@ pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure
             "give shares of the operating time if it is used so for good, or break the mission into shorter ones".to_owned()
         }
         Cause::TwoFits { .. } => return Failure::usage(&cause, "give one --fit for each joint"),
+        Cause::Run(linkwear_runtime::RunError::NeverAlike { .. }) => {
+            "--settle 500 measures after so many turns, --average 80 takes the mean of so many; what a machine does by turns belongs \
+             into [missions]"
+                .to_owned()
+        }
         Cause::NoWear => "add [clearance.R1] and [wear.R1], R1 being the joint that wears".to_owned(),
         Cause::NoTurns => format!("drive one, as in R1 = {{ revolute = .., drive = \"2*pi*speed*t\" }}; {CLOCK}"),
         Cause::NoWholeTurn { .. } => format!("change the law of its drive; {CLOCK}"),

@@ -23,5 +23,5 @@ pub use offset::{motion_sizes, offset_columns, rows_of_free_offsets};
 pub use placing::place;
 pub(crate) use placing::place_moving;
 pub use state::State;
-pub(crate) use static_contact::assemble_under_way;
 pub use static_contact::{assemble_static_contact, check_clearances, resting_contacts};
+pub(crate) use static_contact::{assemble_under_way, rest_under_way};

@@ -49,6 +49,15 @@ pub(crate) fn assemble_under_way(evaluator: &mut Evaluator<'_>, t: f64) -> Resul
     assemble_resting(evaluator, t, Journals::MoveOn)
 }
 
+/// The state near one under way in which journals move with the loads that press them; nothing where they cannot. What contacts remember
+/// begins there.
+pub(crate) fn rest_under_way(evaluator: &mut Evaluator<'_>, t: f64, near: &State) -> Option<State> {
+    let state = rest(evaluator, t, near, Journals::MoveOn).0?;
+    evaluator.evaluate_contacts(t, &state.q, &state.v);
+    evaluator.clearances_mut().begin();
+    Some(state)
+}
+
 fn assemble_resting(
     evaluator: &mut Evaluator<'_>,
     t: f64,

@@ -14,13 +14,19 @@ const MOST_TO_SETTLE: u32 = 4;
 /// ... and the mean of it and later ones is taken, of so many that its standard error is this part of it: many measurements of a life
 /// average out what is left, and the budget tells it; it counts alone where it is nearly settled; ...
 const SCATTERED: f64 = 1e-3;
-/// ... or of so many turns.
+/// ... or of so many turns, ...
 const MOST_TO_AVERAGE: usize = 20;
+/// ... or so many times as many as drives and forces need to repeat.
+const FEWEST: usize = 2;
 
 /// A measurement under way.
 pub(super) struct Measuring {
     settle: Option<u32>,
     average: usize,
+    /// How many are averaged at most where turns scatter.
+    most: usize,
+    /// Whether what is measured are single turns.
+    are_single: bool,
     settling: Settling,
     /// How much room journals have [m].
     rooms: Vec<f64>,
@@ -54,12 +60,14 @@ pub(super) struct Done {
 }
 
 impl Measuring {
-    /// Of a motion that goes on from an orbit, or begins, with journals that have so much room [m].
-    pub fn new(settings: &RevolutionSettings, settling: Settling, rooms: Vec<f64>) -> Self {
+    /// Of a motion that goes on from an orbit, or begins, with journals that have so much room [m]; what counts as a turn are so many
+    /// of the driver's.
+    pub fn new(settings: &RevolutionSettings, settling: Settling, rooms: Vec<f64>, every: u32) -> Self {
         let average = settings.average.max(1) as usize;
         let stage = if settings.settle == Some(0) { Stage::IsSettled } else { Stage::Settles };
         let (settle, last, turns) = (settings.settle, None, Vec::new());
-        Self { settle, average, settling, rooms, stage, done: 0, last, turns, doubts: None }
+        let (most, are_single) = ((MOST_TO_AVERAGE / every.max(1) as usize).max(FEWEST), every <= 1);
+        Self { settle, average, most, are_single, settling, rooms, stage, done: 0, last, turns, doubts: None }
     }
 
     /// The part of the measurement that the next turn is, from and to. Where nobody knows how many there will be, every turn is half of
@@ -97,7 +105,7 @@ impl Measuring {
         let count = self.turns.len();
         let enough = self.stage == Stage::IsSettled
             || count == 1 && self.settling.has_nearly_settled()
-            || count >= MOST_TO_AVERAGE
+            || count >= self.most
             || wearing.is_known_to(SCATTERED, &self.turns);
         count >= self.average && enough
     }
@@ -105,6 +113,7 @@ impl Measuring {
     /// Whether it is done by turns that agreed at once, though nothing tells that the motion would come back to itself.
     pub fn shows_nothing(&self, wearing: &Wearing<'_>) -> bool {
         self.settle.is_none()
+            && self.are_single
             && self.settling.shows_nothing(&self.rooms)
             && self.turns.last().is_some_and(|turn| wearing.has_steady_load(turn))
     }

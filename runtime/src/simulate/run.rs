@@ -36,6 +36,25 @@ pub struct Statistics {
     pub energy_throughput_J: f64,
 }
 
+impl Statistics {
+    /// Of a run and the one that went on from its end.
+    pub(crate) fn and(&self, later: &Self) -> Self {
+        Self {
+            steps: self.steps + later.steps,
+            implicit_steps: self.implicit_steps + later.implicit_steps,
+            rejected: self.rejected + later.rejected,
+            evaluations: self.evaluations + later.evaluations,
+            projections: self.projections + later.projections,
+            rank_revealing_solves: self.rank_revealing_solves + later.rank_revealing_solves,
+            newton_iterations: self.newton_iterations + later.newton_iterations,
+            max_loop_error_m: self.max_loop_error_m.max(later.max_loop_error_m),
+            max_loop_error_rad: self.max_loop_error_rad.max(later.max_loop_error_rad),
+            energy_error_J: self.energy_error_J.max(later.energy_error_J),
+            energy_throughput_J: self.energy_throughput_J + later.energy_throughput_J,
+        }
+    }
+}
+
 /// A finished run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Run {

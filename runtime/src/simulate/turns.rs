@@ -2,6 +2,7 @@
 //! In: a mechanism, a method, clearances. Out: [`ContactMeasure`]s. Never knows how wear follows from them.
 
 mod journals;
+mod laws;
 
 use std::f64::consts::PI;
 
@@ -63,6 +64,20 @@ pub struct TurnMeasures {
     pub warnings: Vec<RunWarning>,
     /// Cost and quality of the turn.
     pub statistics: Statistics,
+}
+
+impl TurnMeasures {
+    /// Those of several turns as one: means of what joints did, all that was doubtful, what they cost together.
+    pub(crate) fn mean(turns: Vec<Self>) -> Self {
+        let count = turns.iter().map(|turn| turn.joints.len()).min().unwrap_or(0);
+        let joint =
+            |at: usize| ContactMeasure::mean(&turns.iter().map(|turn| &turn.joints[at]).collect::<Vec<_>>());
+        Self {
+            joints: (0..count).map(joint).collect(),
+            statistics: turns.iter().fold(Statistics::default(), |sum, turn| sum.and(&turn.statistics)),
+            warnings: turns.into_iter().flat_map(|turn| turn.warnings).collect(),
+        }
+    }
 }
 
 /// Runs a mechanism turn by turn.
