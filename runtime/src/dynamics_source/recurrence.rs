@@ -107,9 +107,14 @@ impl Laws {
         Self { slack: slack.collect(), turns }
     }
 
-    /// By how much two turns differ at most, in parts of what may be alike; what is no number in both is the same.
+    /// By how much two turns differ at most, in parts of what may be alike.
     fn differ(&self, a: usize, b: usize) -> f64 {
-        let numbers = self.turns[a].iter().zip(&self.turns[b]).zip(&self.slack);
+        self.apart(&self.turns[a], &self.turns[b])
+    }
+
+    /// The same of numbers as turns have them; what is no number in both is the same.
+    fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
+        let numbers = a.iter().zip(b).zip(&self.slack);
         numbers.fold(0.0_f64, |most, ((a, b), slack)| {
             let off = (a - b).abs() / slack;
             match (a.is_finite(), b.is_finite()) {
@@ -127,7 +132,8 @@ impl Laws {
         for every in 1..=count / 2 {
             let unlike = (0..count - every).rev().find(|turn| self.differ(*turn, turn + every) > 1.0);
             let after = unlike.map_or(0, |turn| turn + 1);
-            let fits = after + 2 * every <= count;
+            // As many turns are alike at least as come before.
+            let fits = after + 2 * every <= count && 2 * after <= count;
             if fits && best.is_none_or(|(known, _)| after < known) {
                 best = Some((after, every));
             }
@@ -143,12 +149,18 @@ impl Laws {
     fn beat(&self) -> Option<usize> {
         let count = self.turns.len();
         let varies = (1..count).map(|turn| self.differ(0, turn)).fold(0.0, f64::max);
-        // Within a beat laws go through all that they vary by: what goes one way slowly is nearly alike, too.
-        let goes_through = |every: usize| (1..every).any(|turn| 2.0 * self.differ(0, turn) >= varies);
-        let is_near = |every: &usize| {
-            goes_through(*every)
-                && (0..count - every).all(|turn| self.differ(turn, turn + every) <= NEARLY * varies)
+        let is_near =
+            |every: &usize| (0..count - every).all(|turn| self.differ(turn, turn + every) <= NEARLY * varies);
+        // What goes one way slowly is nearly alike, too, but not on the whole.
+        let half = |turns: &[Vec<f64>]| -> Vec<f64> {
+            (0..self.slack.len())
+                .map(|place| turns.iter().map(|turn| turn[place]).sum::<f64>() / turns.len() as f64)
+                .collect()
         };
+        let (first, second) = self.turns.split_at(count / 2);
+        if self.apart(&half(first), &half(second)) > NEARLY * varies {
+            return None;
+        }
         // Four such beats at least: what comes and goes once is none.
         (2..=count / 4).find(is_near)
     }
