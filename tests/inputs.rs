@@ -268,6 +268,27 @@ fn a_run_has_the_values_of_its_parameters_where_nothing_is_connected() {
 }
 
 #[test]
+fn a_life_over_time_is_refused_with_the_cure() {
+    let folder = Folder::new("inputs-life");
+    let (file, inputs) = (folder.path("m.toml"), folder.path("inputs.csv"));
+    let pushed = MOTOR
+        .replace("[initial]\nA = { q = \"-30 deg\", v = \"0 rad/s\" }\n", "")
+        .replace("damping = \"0.02 N m s/rad\", force = \"torque\"", "drive = \"2*pi*2 Hz*t\"")
+        .replace("torque = { unit = \"N m\", default = 0.5 }\n", "");
+    let worn = "[parameters]\nc0 = \"20 um\"\n[clearance.A]\nradial = \"c0\"\njournal_radius = \"10 mm\"\nlength = \"20 mm\"\nmodulus = \"115 GPa\"\n\
+                restitution = 0.9\nfriction = 0.05\n[wear.A]\ncoefficient = 1e-8\nhardness = \"3.5 GPa\"\n\
+                threshold = \"80 um\"\nrevolutions_per_cycle = 1e7\n";
+    std::fs::write(&file, pushed + worn).unwrap();
+    std::fs::write(&inputs, "t [s],load [N]\n0,30\n1,30\n").unwrap();
+    let words = ["study", &file, "--inputs", &inputs, "--of", "A.depth_m,life.mean_path"];
+    let answer = linkwear(&[&words[..], &["--vary", "c0=20um,30um", "--format", "json"]].concat());
+    let error = &answer.errors()[0];
+    assert_eq!((answer.code, error["code"].as_str()), (2, Some("C0001")), "{}", answer.err);
+    let told = format!("{} {}", error["message"], error["help"]);
+    assert!(told.contains("`life.mean_path` is of a life") && told.contains("by a mission"), "{told}");
+}
+
+#[test]
 fn wrong_tables_are_refused_with_the_cure() {
     let folder = Folder::new("inputs-wrong");
     let (motor, inputs) = (folder.path("m.toml"), folder.path("inputs.csv"));

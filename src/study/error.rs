@@ -5,6 +5,7 @@ use thiserror::Error;
 
 use super::cases::Cases;
 use super::points::Points;
+use super::quantity::{Needs, Quantity};
 use crate::journal::JournalError;
 
 /// Why there is no study.
@@ -19,6 +20,14 @@ pub enum StudyError {
         /// The input.
         name: String,
     },
+    /// A life does not follow inputs over time: its turns repeat, at constant inputs.
+    #[error(
+        "`{name}` is of a life, in which inputs are constants: it does not follow those that are given over time"
+    )]
+    LifeOverTime {
+        /// What is asked of a life.
+        name: String,
+    },
     /// Stopped on request.
     #[error("stopped on request after {done} of {of} points")]
     Interrupted {
@@ -29,16 +38,18 @@ pub enum StudyError {
     },
 }
 
-/// Whether inputs over time go with what varies.
+/// Whether inputs over time go with what varies and what is asked.
 pub(super) fn check_signals(
     signals: &SampledSignals,
-    cases: &Cases,
-    points: &Points,
+    (cases, points, of): (&Cases, &Points, &[Quantity]),
 ) -> Result<(), StudyError> {
     let inputs = cases.base().description.input_infos().enumerate();
     let mut connected = inputs.filter(|(at, _)| signals.connects(*at)).map(|(_, (info, _))| &*info.name);
     if let Some(name) = connected.find(|name| points.axes().iter().any(|axis| axis.name == *name)) {
         return Err(StudyError::GivenOverTime { name: name.to_owned() });
     }
-    Ok(())
+    match of.iter().find(|quantity| quantity.needs() == Needs::Life) {
+        Some(quantity) => Err(StudyError::LifeOverTime { name: quantity.name.clone() }),
+        None => Ok(()),
+    }
 }

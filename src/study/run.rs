@@ -62,12 +62,12 @@ pub(crate) enum Fault {
 }
 
 impl Study<'_> {
-    /// Whether what varies goes with the inputs over time; [`Self::run`] asks it too.
+    /// Whether what varies and what is asked go with the inputs over time; [`Self::run`] asks it too.
     ///
     /// # Errors
-    /// [`StudyError::GivenOverTime`].
+    /// [`StudyError::GivenOverTime`], [`StudyError::LifeOverTime`].
     pub fn check(&self) -> Result<(), StudyError> {
-        self.signals.map_or(Ok(()), |signals| check_signals(signals, self.cases, self.points))
+        self.signals.map_or(Ok(()), |signals| check_signals(signals, (self.cases, self.points, &self.of)))
     }
 
     /// Runs all points, or those of the shard.
