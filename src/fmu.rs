@@ -4,6 +4,7 @@
 
 mod archive;
 mod description;
+mod names;
 mod si;
 mod sources;
 
