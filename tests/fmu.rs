@@ -451,6 +451,52 @@ fn no_two_variables_have_one_name_and_the_file_keeps_its_own() {
     }
 }
 
+#[test]
+fn every_unit_has_its_powers_and_angles_are_in_radians() {
+    let text = r#"spec = 1
+name = "units"
+gravity = [0, 0, 0]
+[parameters]
+a = { value = "3 1/(m s)", tunable = true }
+lean = { value = "30 deg", tunable = true }
+rate = { value = "2 rad/s", tunable = true }
+speed = { value = "2 Hz", tunable = true }
+part = { value = 0.5, tunable = true }
+tilt = "10 deg"
+[inputs]
+angle = { unit = "deg", default = 10 }
+[points]
+O = [0, 0, 0]
+[bodies]
+d = { mass = "1 kg", centre = "O", inertia = ["1e-2 kg m^2", "1e-2 kg m^2", "1e-2 kg m^2"] }
+[joints]
+j = { revolute = ["ground", "d"], at = "O", axis = [0, 0, 1], drive = "angle + part*lean + tilt + sin(rate*t) + sin(2*pi*speed*t)" }
+[states]
+s1 = { initial = "1 1/(m s)", rate = "a/(2 s)" }
+s3 = { initial = "1 kg/s", rate = "2 kg/s^2" }
+s4 = { initial = "1 s^2", rate = "2 s" }
+"#;
+    let (variables, units) = described(text);
+    let unit = |name: &str| &*variables.iter().find(|(known, _)| known == name).expect(name).1;
+    for (name, expected) in [
+        ("lean", "rad"),
+        ("rate", "rad/s"),
+        ("speed", "Hz"),
+        ("part", ""),
+        ("constant.tilt", "rad"),
+        ("angle", "rad"),
+        ("angle.v", "rad/s"),
+        ("angle.a", "rad/s^2"),
+        ("angle.u", "rad"),
+        ("der(state.v.s1.value)", "1/(m s^2)"),
+        ("der(state.v.s3.value)", "N/m"),
+        ("der(state.v.s4.value)", "s"),
+    ] {
+        assert_eq!(unit(name), expected, "{name} {variables:?}");
+    }
+    assert!(!units.is_empty() && units.iter().all(|unit| unit.contains("<BaseUnit ")), "{units:?}");
+}
+
 /// `pip install fmpy`; `FMPY_PYTHON` names a Python that has it.
 #[test]
 fn fmpy_finds_no_fault_and_gets_the_trajectory() {

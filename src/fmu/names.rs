@@ -5,6 +5,8 @@ use std::collections::BTreeSet;
 use linkwear_fmu::{Unit, Variable, Variables};
 use linkwear_runtime::{Channel, Description};
 
+use super::si::rate;
+
 /// Name and unit of every variable, in the order of their references.
 ///
 /// Parameters and columns have the names of the file. What a unit adds gives way where the file has its name, by a `_` behind it:
@@ -22,7 +24,7 @@ pub fn names(unit: &Unit, channels: &[Channel]) -> Vec<(String, String)> {
         if let Variable::Derivative(index) = variable {
             // Of the name that its state has come to.
             let (state, of_state): &(String, String) = &states[index];
-            (name, si) = (format!("der({state})"), over_seconds(of_state));
+            (name, si) = (format!("der({state})"), rate(of_state).unwrap_or_else(|| "1".to_owned()));
         } else if !is_of_file(&variable) {
             while !taken.insert(name.clone()) {
                 name.push('_');
@@ -65,12 +67,4 @@ fn plain(variable: Variable, unit: &Unit, channels: &[Channel]) -> (String, Stri
 fn state(description: &Description, index: usize) -> (&str, &str) {
     let info = description.coordinates.iter().chain(&*description.speeds).nth(index);
     info.map_or(("", ""), |info| (&info.name, &info.unit))
-}
-
-fn over_seconds(unit: &str) -> String {
-    match unit {
-        "" | "1" => "1/s".to_owned(),
-        unit if unit.ends_with("/s") => format!("{unit}^2"),
-        unit => format!("{unit}/s"),
-    }
 }
