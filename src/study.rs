@@ -12,6 +12,7 @@ mod points;
 mod quantity;
 mod result;
 mod run;
+mod set_anyway;
 
 pub use axis::{Axis, AxisError, written};
 pub use cases::Cases;

@@ -19,6 +19,7 @@ use super::journal::StudyJournal;
 use super::points::Points;
 use super::quantity::{Needs, Quantity};
 use super::result::{Kind, PointError, Row, StudyColumn, StudyFacts, StudyResult};
+use super::set_anyway::set_anyway;
 use crate::journal::Identity;
 use crate::life::{LifeError, LifeStudy};
 use crate::mechanism::{LoadError, Mechanism};
@@ -208,10 +209,12 @@ impl Study<'_> {
         let run = needs_run.then(|| self.simulated(&mechanism, watch.piece(0.0, share))).transpose()?;
         let life =
             LifeStudy { mechanism: &mechanism, threads: Some(NonZero::<usize>::MIN), ..self.life.clone() };
+        let anyway = if needs_life { set_anyway(&life, self.points) } else { Vec::new() };
         let life = needs_life.then(|| life.run_watched(watch.piece(share, 1.0))).transpose();
         let life = life.map_err(Fault::Life)?;
         let mut warnings: Vec<String> =
             run.iter().flat_map(|run| &run.warnings).map(ToString::to_string).collect();
+        warnings.extend(anyway);
         warnings.extend(life.iter().flat_map(|life| life.warnings.clone()));
         let told = life.map(|life| (life.numbers(life.statistics().as_ref()), life));
         let value = |quantity: &Quantity| match quantity.needs() {

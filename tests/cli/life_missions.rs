@@ -126,3 +126,19 @@ fn a_life_stands_where_half_as_many_bins_have_none() {
     let warnings = life["warnings"].to_string();
     assert!(warnings.contains("binning") && warnings.contains("rests in segment `bin1`"), "{warnings}");
 }
+
+#[test]
+fn what_a_mission_sets_anyway_is_told_where_it_varies() {
+    let folder = Folder::new("set-anyway");
+    let file = arm(&folder);
+    let words = ["study", &file, "--of", "life.mean_path", "--mean", "--step", "1e-4", "--settle", "0"];
+    let warnings = |vary: &str, more: &[&str]| {
+        let answer = linkwear(&[&words[..], &["--vary", vary, "--format", "json"], more].concat()).json();
+        assert_eq!(answer["failed"], 0);
+        let told = answer["warnings"].to_string();
+        told.matches("every segment of mission `m` sets `speed`").count()
+    };
+    assert_eq!(warnings("speed=1Hz,3Hz", &[]), 2);
+    assert_eq!(warnings("speed=1Hz,3Hz", &["--no-mission"]), 0);
+    assert_eq!(warnings("c0=20um,30um", &[]), 0);
+}
