@@ -4,6 +4,7 @@
 
 mod archive;
 mod description;
+mod names;
 mod si;
 mod sources;
 
@@ -55,11 +56,11 @@ pub fn unit(mechanism: &Compiled) -> Result<Vec<u8>, UnitError> {
     if LIBRARY.is_empty() {
         return Err(UnitError::NoLibrary);
     }
-    let program = Program::new(mechanism.description().clone(), mechanism.tapes().to_vec())?;
+    let program = Program::new(in_angles(mechanism), mechanism.tapes().to_vec())?;
     let folded = mechanism.mechanism.parameters.iter().filter(|one| !one.tunable && !one.input);
     let constants = folded.map(|one| Constant {
         name: one.name.clone(),
-        unit: one.dimension.si_unit(),
+        unit: one.dimension.unit_counting(one.turning),
         value: one.value,
     });
     let mut unit = Unit { program, constants: constants.collect(), instantiation_token: String::new() };
@@ -75,6 +76,17 @@ pub fn unit(mechanism: &Compiled) -> Result<Vec<u8>, UnitError> {
     }
     archive.add("documentation/index.html", description::documentation(&unit).as_bytes());
     Ok(archive.finish())
+}
+
+/// What is known of a mechanism, with parameters in rad, rad/s or Hz where the file says that they count these: a tool cannot ask.
+fn in_angles(mechanism: &Compiled) -> Description {
+    let mut description = mechanism.description().clone();
+    for info in description.parameters.to_mut() {
+        if let Some(known) = mechanism.mechanism.parameters.iter().find(|known| *known.name == *info.name) {
+            info.unit = known.dimension.unit_counting(known.turning).into();
+        }
+    }
+    description
 }
 
 /// Whether a file is a unit, by how it begins.

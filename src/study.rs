@@ -5,20 +5,23 @@
 
 mod axis;
 mod cases;
+mod error;
 mod journal;
 mod part;
 mod points;
 mod quantity;
 mod result;
 mod run;
+mod set_anyway;
 
 pub use axis::{Axis, AxisError, written};
 pub use cases::Cases;
 pub(crate) use cases::Last;
+pub use error::StudyError;
 pub use journal::StudyJournal;
 pub use part::{StudyPart, merge};
 pub use points::{Points, PointsError};
 pub use quantity::{Needs, Quantity, STATISTICS, listed, named, quantities, turn_key};
 pub use result::{Kind, PointError, Row, StudyColumn, StudyFacts, StudyResult};
 pub(crate) use run::Fault;
-pub use run::{LIFE_FAILED, RUN_FAILED, Study, StudyError};
+pub use run::{LIFE_FAILED, RUN_FAILED, Study};

@@ -403,6 +403,100 @@ fn a_unit_is_the_same_bytes_every_time_and_tells_itself_from_others() {
     assert_ne!(tokens[0], tokens[1]);
 }
 
+/// Of the model description of a text: name and unit of every variable, and the elements `Unit`.
+fn described(text: &str) -> (Vec<(String, String)>, Vec<String>) {
+    let source = SourceFile { name: "m.toml".to_owned(), text: text.to_owned() };
+    let bytes = fmu::unit(&compile(&source, &Options::default()).expect("no errors")).expect("a unit");
+    let description = files(&bytes).into_iter().find(|(name, _)| name == "modelDescription.xml");
+    let xml = String::from_utf8(description.expect("a description").1).expect("text");
+    let value = |line: &str, key: &str| {
+        let rest = line.split_once(&format!(" {key}=\""))?.1;
+        rest.split('"').next().map(str::to_owned)
+    };
+    let variables = xml.lines().filter(|line| line.trim().starts_with("<Float64 "));
+    let variables = variables.map(|line| (value(line, "name").expect("a name"), value(line, "unit")));
+    let units = xml.lines().map(str::trim).filter(|line| line.starts_with("<Unit "));
+    (
+        variables.map(|(name, unit)| (name, unit.unwrap_or_default())).collect(),
+        units.map(str::to_owned).collect(),
+    )
+}
+
+/// An arm whose names are those that a unit adds: of a joint, and of what damps it.
+fn named(joint: &str, parameter: &str, more: &str) -> String {
+    format!(
+        "spec = 1\nname = \"m\"\ngravity = [0, \"-9.81 m/s^2\", 0]\n[parameters]\n\
+         {parameter} = {{ value = \"0.01 N m s\", tunable = {tunable} }}\n[points]\nO = [0, 0, 0]\nA = [\"0.2 m\", 0, 0]\n[bodies]\n\
+         b = {{ rod = [\"O\", \"A\"], radius = \"6 mm\", mass = \"1 kg\" }}\n[joints]\n\
+         {joint} = {{ revolute = [\"ground\", \"b\"], at = \"O\", axis = [0, 0, 1], damping = \"{parameter}\" }}\n{more}",
+        tunable = parameter == "time",
+    )
+}
+
+#[test]
+fn no_two_variables_have_one_name_and_the_file_keeps_its_own() {
+    let contact = "q = { revolute = [\"b\", \"c\"], at = \"A\", axis = [0, 0, 1] }\n\
+                   [bodies.c]\nrod = [\"A\", \"O\"]\nradius = \"6 mm\"\nmass = \"1 kg\"\n[clearance.q]\nradial = \"1 mm\"\n\
+                   journal_radius = \"10 mm\"\nlength = \"20 mm\"\nmodulus = \"115 GPa\"\nrestitution = 0.9\n";
+    for (text, kept, added) in [
+        (named("J", "time", ""), "time", "time_"),
+        (named("constant", "q", ""), "constant.q", "constant.q_"),
+        (named("penetration", "k", contact), "penetration.q", "penetration.q_"),
+    ] {
+        let (variables, _) = described(&text);
+        let names: Vec<&str> = variables.iter().map(|(name, _)| &**name).collect();
+        let distinct: std::collections::BTreeSet<&str> = names.iter().copied().collect();
+        assert_eq!(distinct.len(), names.len(), "{names:?}");
+        assert!(names.contains(&kept) && names.contains(&added), "{kept} {added}: {names:?}");
+    }
+}
+
+#[test]
+fn every_unit_has_its_powers_and_angles_are_in_radians() {
+    let text = r#"spec = 1
+name = "units"
+gravity = [0, 0, 0]
+[parameters]
+a = { value = "3 1/(m s)", tunable = true }
+lean = { value = "30 deg", tunable = true }
+rate = { value = "2 rad/s", tunable = true }
+speed = { value = "2 Hz", tunable = true }
+part = { value = 0.5, tunable = true }
+tilt = "10 deg"
+[inputs]
+angle = { unit = "deg", default = 10 }
+[points]
+O = [0, 0, 0]
+[bodies]
+d = { mass = "1 kg", centre = "O", inertia = ["1e-2 kg m^2", "1e-2 kg m^2", "1e-2 kg m^2"] }
+[joints]
+j = { revolute = ["ground", "d"], at = "O", axis = [0, 0, 1], drive = "angle + part*lean + tilt + sin(rate*t) + sin(2*pi*speed*t)" }
+[states]
+s1 = { initial = "1 1/(m s)", rate = "a/(2 s)" }
+s3 = { initial = "1 kg/s", rate = "2 kg/s^2" }
+s4 = { initial = "1 s^2", rate = "2 s" }
+"#;
+    let (variables, units) = described(text);
+    let unit = |name: &str| &*variables.iter().find(|(known, _)| known == name).expect(name).1;
+    for (name, expected) in [
+        ("lean", "rad"),
+        ("rate", "rad/s"),
+        ("speed", "Hz"),
+        ("part", ""),
+        ("constant.tilt", "rad"),
+        ("angle", "rad"),
+        ("angle.v", "rad/s"),
+        ("angle.a", "rad/s^2"),
+        ("angle.u", "rad"),
+        ("der(state.v.s1.value)", "1/(m s^2)"),
+        ("der(state.v.s3.value)", "N/m"),
+        ("der(state.v.s4.value)", "s"),
+    ] {
+        assert_eq!(unit(name), expected, "{name} {variables:?}");
+    }
+    assert!(!units.is_empty() && units.iter().all(|unit| unit.contains("<BaseUnit ")), "{units:?}");
+}
+
 /// `pip install fmpy`; `FMPY_PYTHON` names a Python that has it.
 #[test]
 fn fmpy_finds_no_fault_and_gets_the_trajectory() {

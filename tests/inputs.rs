@@ -5,7 +5,7 @@ mod command;
 
 use command::{Folder, linkwear};
 use linkwear::mechanism::Mechanism;
-use linkwear_runtime::{Settings, Simulation, Span, Watch};
+use linkwear_runtime::{Integrator, SampledSignals, Settings, Simulation, Span, Watch, simulate_with_inputs};
 
 /// An arm pushed by a torque and a load.
 const MOTOR: &str = r#"
@@ -196,6 +196,96 @@ fn without_a_table_an_input_is_a_constant() {
     let set = value(&last_row(&folder, MOTOR, &["--set", "torque=750 N mm"]), "A.q [rad]");
     // Other operations, so other roundings.
     assert!((exact - set).abs() < 1e-12);
+}
+
+/// A wheel that is pushed and braked from rest: after a second it turns with (torque - brake)/J.
+const WHEEL: &str = r#"
+spec = 1
+name = "wheel"
+gravity = [0, 0, 0]
+[parameters]
+J = "1 kg m^2"
+[inputs]
+torque = "1 N m"
+brake = "0 N m"
+[points]
+O = [0, 0, 0]
+[bodies]
+wheel = { mass = "1 kg", centre = "O", inertia = ["J", "J", "J"] }
+[joints]
+R = { revolute = ["ground", "wheel"], at = "O", axis = [0, 0, 1], force = "torque - brake" }
+"#;
+
+#[test]
+fn a_study_varies_inputs_beside_those_of_a_table() {
+    let folder = Folder::new("inputs-study");
+    let (file, inputs) = (folder.path("m.toml"), folder.path("inputs.csv"));
+    std::fs::write(&file, WHEEL).unwrap();
+    std::fs::write(&inputs, "t [s],torque [N m]\n0,1\n1,1\n").unwrap();
+    let study = |more: &[&str]| {
+        let words = ["study", &file, "--time", "1", "--inputs", &inputs, "--of", "final.R.v,final.brake.u"];
+        linkwear(&[&words[..], more, &["--format", "json"]].concat())
+    };
+    // Compiled once, and anew for every inertia.
+    let brakes = ["--vary", "brake=0 N m,0.5 N m,1 N m"];
+    for inertias in [&[][..], &["--vary", "J=1 kg m^2,2 kg m^2"]] {
+        let answer = study(&[&brakes, inertias].concat()).json();
+        let rows = answer["rows"].as_array().unwrap();
+        assert_eq!(rows.len(), 3 * inertias.len().max(1));
+        for row in rows {
+            let number = |at: usize| row[at].as_f64().unwrap();
+            let (inertia, first) = if inertias.is_empty() { (1.0, 1) } else { (number(1), 2) };
+            // By rounding of one, over the steps of a second.
+            assert!((number(first) - (1.0 - number(0)) / inertia).abs() < 1e-12, "{row}");
+            assert_eq!(row[first + 1], row[0]);
+        }
+    }
+    let answer = study(&["--vary", "torque=1 N m,2 N m"]);
+    let error = &answer.errors()[0];
+    assert_eq!((answer.code, error["code"].as_str()), (2, Some("C0001")));
+    let told = format!("{} {}", error["message"], error["help"]);
+    assert!(told.contains("`torque` varies and is given over time") && told.contains("its column"), "{told}");
+}
+
+#[test]
+fn a_run_has_the_values_of_its_parameters_where_nothing_is_connected() {
+    let folder = Folder::new("inputs-run");
+    let file = folder.path("m.toml");
+    std::fs::write(&file, WHEEL).unwrap();
+    let mechanism = Mechanism::read(&file).unwrap();
+    let description = &mechanism.description;
+    let columns = [("torque".to_owned(), vec![1.0, 1.0])];
+    let signals = SampledSignals::new(description, vec![0.0, 1.0], &columns).unwrap();
+    assert!(signals.connects(0) && !signals.connects(1));
+    let mut parameters = mechanism.parameters.clone();
+    parameters[description.tunable() + 1] = 0.25;
+    let settings = Settings::new(Integrator::adaptive(description, None), Span::Time(1.0), 2);
+    let system = mechanism.system();
+    let run = simulate_with_inputs(&*system, description, &parameters, &signals, &settings, Watch::NONE);
+    let run = run.unwrap();
+    let speed = run.rows.last().unwrap()[run.index("R.v").unwrap()];
+    assert!((speed - 0.75).abs() < 1e-12, "{speed}");
+}
+
+#[test]
+fn a_life_over_time_is_refused_with_the_cure() {
+    let folder = Folder::new("inputs-life");
+    let (file, inputs) = (folder.path("m.toml"), folder.path("inputs.csv"));
+    let pushed = MOTOR
+        .replace("[initial]\nA = { q = \"-30 deg\", v = \"0 rad/s\" }\n", "")
+        .replace("damping = \"0.02 N m s/rad\", force = \"torque\"", "drive = \"2*pi*2 Hz*t\"")
+        .replace("torque = { unit = \"N m\", default = 0.5 }\n", "");
+    let worn = "[parameters]\nc0 = \"20 um\"\n[clearance.A]\nradial = \"c0\"\njournal_radius = \"10 mm\"\nlength = \"20 mm\"\nmodulus = \"115 GPa\"\n\
+                restitution = 0.9\nfriction = 0.05\n[wear.A]\ncoefficient = 1e-8\nhardness = \"3.5 GPa\"\n\
+                threshold = \"80 um\"\nrevolutions_per_cycle = 1e7\n";
+    std::fs::write(&file, pushed + worn).unwrap();
+    std::fs::write(&inputs, "t [s],load [N]\n0,30\n1,30\n").unwrap();
+    let words = ["study", &file, "--inputs", &inputs, "--of", "A.depth_m,life.mean_path"];
+    let answer = linkwear(&[&words[..], &["--vary", "c0=20um,30um", "--format", "json"]].concat());
+    let error = &answer.errors()[0];
+    assert_eq!((answer.code, error["code"].as_str()), (2, Some("C0001")), "{}", answer.err);
+    let told = format!("{} {}", error["message"], error["help"]);
+    assert!(told.contains("`life.mean_path` is of a life") && told.contains("by a mission"), "{told}");
 }
 
 #[test]

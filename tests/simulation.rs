@@ -4,8 +4,8 @@ use linkwear::backend::Backend;
 use linkwear::mechanism::{Mechanism, read_source};
 use linkwear_codegen::Options;
 use linkwear_runtime::{
-    Description, Integrator, RunError, Settings, SetupError, Simulation, SimulationState, Span, System,
-    Watch, simulate,
+    Description, Integrator, RunError, Settings, SetupError, Simulation, SimulationState, Span, StateSpace,
+    System, Watch, simulate,
 };
 
 /// A mechanism with its equations.
@@ -178,6 +178,33 @@ fn a_damper_changed_on_the_way_acts_from_there_on() {
     assert!(matches!(&refused, Err(RunError::Setup(SetupError::Jump { .. }))), "{refused:?}");
     assert_eq!(simulation.state(), kept);
     simulation.advance(0.3, Watch::NONE).expect("it goes on");
+}
+
+/// A state that belongs to another time is told as that, not as a jump of parameters; on its loops it takes them.
+#[test]
+fn a_time_without_its_state_is_told_before_parameters_change() {
+    let made = Made::new("rssr_flexible");
+    let damper = made.place("c_rocker");
+    let mut space = StateSpace::start_at(
+        0.0,
+        &*made.system,
+        made.description(),
+        &made.parameters(),
+        &settings(&made, 0.4, 0),
+    )
+    .expect("a start");
+    let mut parameters = made.parameters();
+    parameters[damper] += 0.5;
+    space.set_time(0.001);
+    let refused = space.set_parameters(&parameters).expect_err("the crank has gone on alone");
+    assert!(matches!(&refused, SetupError::NotOnLoops { t: 0.001, .. }), "{refused}");
+    assert!(
+        !refused.to_string().contains("parameters") && refused.to_string().contains("together"),
+        "{refused}"
+    );
+    assert_eq!(space.parameters(), made.parameters());
+    space.put_on().expect("near enough");
+    space.set_parameters(&parameters).expect("a damper may change");
 }
 
 #[test]

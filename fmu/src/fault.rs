@@ -14,7 +14,14 @@ impl From<RunError> for Fault {
 
 impl From<SetupError> for Fault {
     fn from(error: SetupError) -> Self {
-        Self(error.to_string())
+        // In the names of the functions that a tool calls.
+        let cure = match error {
+            SetupError::NotOnLoops { .. } => {
+                " (fmi3SetContinuousStates sets states; fmi3UpdateDiscreteStates puts them onto the loops)"
+            }
+            _ => "",
+        };
+        Self(format!("{error}{cure}"))
     }
 }
 

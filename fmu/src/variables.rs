@@ -1,6 +1,6 @@
 //! Numbers by which a tool asks for values, and what is behind them. In: a unit, its columns. Out: [`Variables`].
 
-use linkwear_runtime::{Channel, Description};
+use linkwear_runtime::Channel;
 
 use crate::unit::Unit;
 
@@ -100,47 +100,5 @@ impl Variables {
     /// Number of event indicators.
     pub const fn indicators(&self) -> usize {
         self.indicators
-    }
-}
-
-/// Name and SI unit of a state.
-pub(crate) fn state(description: &Description, index: usize) -> (&str, &str) {
-    let info = description.coordinates.iter().chain(&*description.speeds).nth(index);
-    info.map_or(("", ""), |info| (&info.name, &info.unit))
-}
-
-impl Variable {
-    /// Name and unit as in the model description, where it is one of many.
-    pub fn name(self, unit: &Unit, channels: &[Channel]) -> (String, String) {
-        let description = unit.program.description();
-        match self {
-            Self::Time => ("time".to_owned(), "s".to_owned()),
-            Self::Parameter(index) => {
-                let info = &description.parameters[index];
-                (info.name.to_string(), info.unit.to_string())
-            }
-            Self::Output(index) => (channels[index].name.to_string(), channels[index].unit.to_string()),
-            Self::State(index) => {
-                let (name, unit) = state(description, index);
-                let kind = if index < description.coordinates.len() { "q" } else { "v" };
-                (format!("state.{kind}.{name}"), unit.to_owned())
-            }
-            Self::Derivative(index) => {
-                let (name, unit) = Self::State(index).name(unit, channels);
-                let rate = match unit.as_str() {
-                    "" | "1" => "1/s".to_owned(),
-                    unit if unit.ends_with("/s") => format!("{unit}^2"),
-                    unit => format!("{unit}/s"),
-                };
-                (format!("der({name})"), rate)
-            }
-            Self::Indicator(index) => {
-                (format!("penetration.{}", description.contacts[index].joint), "m".to_owned())
-            }
-            Self::Constant(index) => {
-                let constant = &unit.constants[index];
-                (format!("constant.{}", constant.name), constant.unit.clone())
-            }
-        }
     }
 }

@@ -96,6 +96,19 @@ pub enum SetupError {
         /// How far [m, rad, m/s or rad/s].
         jump: f64,
     },
+    /// Other values are given at a state that is not on its loops, whatever the values.
+    #[error(
+        "at t = {t:.6} s joint {joint} is open by {open:.3e} (m or rad) before any value changes: the states are not those of this \
+         time; set the time and its states together, or put the states onto the loops, before other values"
+    )]
+    NotOnLoops {
+        /// The joint.
+        joint: String,
+        /// How far it is open [m or rad].
+        open: f64,
+        /// Time [s].
+        t: f64,
+    },
     /// Controllers that act at sampled times, where somebody else takes the steps.
     #[error(
         "the mechanism has controllers that act at sampled times, which an integrator from outside does not know; take steps of its \

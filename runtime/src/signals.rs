@@ -7,7 +7,7 @@ use crate::tables::InputRole;
 
 /// Inputs over time, in the order of [`Description::inputs`].
 pub trait Signals: Sync {
-    /// Writes the value of every input at time `t` [s].
+    /// Writes the value of every connected input at time `t` [s]; the others keep theirs, which they have among the parameters.
     fn write(&self, t: f64, values: &mut [f64]);
 
     /// The first time after `t` at which a signal has a kink: no step should leap over it.
@@ -28,7 +28,8 @@ pub struct SampledSignals {
 /// One input over time.
 #[derive(Clone, Debug)]
 enum Course {
-    Constant(f64),
+    /// Nothing is connected.
+    Unconnected,
     Linear(Vec<f64>),
     /// Values, second derivatives.
     Spline(Vec<f64>, Vec<f64>),
@@ -37,7 +38,8 @@ enum Course {
 }
 
 impl SampledSignals {
-    /// From times [s] and columns of values in SI by the name of their input; inputs without a column keep their defaults.
+    /// From times [s] and columns of values in SI by the name of their input; inputs without a column keep the values
+    /// that they have among the parameters of a run.
     ///
     /// # Errors
     /// If there are no times, they do not rise, a number is not finite, a column has another length, or its input does not
@@ -81,7 +83,7 @@ impl SampledSignals {
             let has_rates = roles.get(at + 1) == Some(&InputRole::RateOfPrevious);
             match (role, given) {
                 (InputRole::RateOfPrevious, _) => Course::Rate,
-                (InputRole::Value, None) => Course::Constant(info.default),
+                (InputRole::Value, None) => Course::Unconnected,
                 (InputRole::Value, Some(values)) if has_rates => {
                     let bends = spline(&times, &values);
                     Course::Spline(values, bends)
@@ -91,6 +93,11 @@ impl SampledSignals {
         };
         let courses = description.input_infos().enumerate().map(course).collect();
         Ok(Self { times, courses })
+    }
+
+    /// Whether an input has samples, by its place in [`Description::inputs`].
+    pub fn connects(&self, input: usize) -> bool {
+        matches!(self.courses.get(input), Some(Course::Linear(_) | Course::Spline(..)))
     }
 
     /// The piece at `t` by its first sample, and the time within it [s], none outside of all.
@@ -111,8 +118,7 @@ impl Signals for SampledSignals {
         let (at, within) = self.piece(t);
         for (place, course) in self.courses.iter().enumerate() {
             match (course, within) {
-                (Course::Constant(value), _) => values[place] = *value,
-                (Course::Rate, _) => {}
+                (Course::Unconnected | Course::Rate, _) => {}
                 (Course::Linear(samples), None) => values[place] = samples[at],
                 (Course::Linear(samples), Some(within)) => {
                     let slope = (samples[at + 1] - samples[at]) / (self.times[at + 1] - self.times[at]);

@@ -54,6 +54,16 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     if let Some(note) = life.thread_note.take() {
         remark(&format_args!("warning: {note}"));
     }
+    if let (Some(folder), Some(journal), None) = (folder, &journal, study.shard) {
+        let (kept, told) = (journal.random_lives(), life.random_lives());
+        if told < kept {
+            remark(&format_args!(
+                "warning: `{}` keeps {kept} random lives, of which {told} are asked for: its results are of these alone now; \
+                 --resume with --trajectories {kept} tells all",
+                folder.display()
+            ));
+        }
+    }
     let facts = LifeFacts::new(&study, life.coupling);
     let answer = output::answer(&facts, &life);
     #[cfg(feature = "page")]

@@ -104,7 +104,7 @@ pub fn asked<T>(
     let steps = (arguments.motion.step, arguments.motion.tol);
     let (life, warnings) = life::lives(&arguments.lives, steps, mechanism)?;
     warnings.iter().for_each(|warning| remark(&format_args!("warning: {warning}")));
-    run(&Study {
+    let study = Study {
         cases: &cases,
         points: &points,
         of,
@@ -114,7 +114,9 @@ pub fn asked<T>(
         run_options: simulation.options(),
         shard: arguments.shard,
         threads: arguments.threads,
-    })
+    };
+    study.check().map_err(|error| failed(arguments, error))?;
+    run(&study)
 }
 
 fn points(arguments: &StudyArguments) -> Result<Points, Failure> {
@@ -156,6 +158,16 @@ pub fn failed(arguments: &StudyArguments, error: StudyError) -> Failure {
     };
     match error {
         StudyError::Journal(error) => Failure::journal(error),
+        StudyError::GivenOverTime { ref name } => {
+            let help = format!("delete its column in the file of --inputs, or leave `--vary {name}` out");
+            Failure::usage(&error, help)
+        }
+        StudyError::LifeOverTime { ref name } => {
+            let help = format!(
+                "leave `{name}` or --inputs out; give inputs of a life a value by --set or --vary, or values that change by a mission"
+            );
+            Failure::usage(&error, help)
+        }
         StudyError::Interrupted { .. } => Failure::stopped_study(&arguments.input.file, error, help),
     }
 }

@@ -6,6 +6,7 @@ use std::fmt::{Display, Write as _};
 use linkwear_fmu::{Unit, Variable, Variables, belongs_to_start};
 use linkwear_runtime::{Integrator, channels};
 
+use super::names::names;
 use super::si::{BASE, powers};
 
 /// Time between two exchanges that tools propose [s].
@@ -42,8 +43,7 @@ fn rows(unit: &Unit) -> Vec<Row> {
     let channels = channels(description);
     let variables = Variables::new(unit, &channels);
     let fixed = belongs_to_start(&unit.program);
-    let row = |(reference, variable): (u32, Variable)| {
-        let (name, si) = variable.name(unit, &channels);
+    let row = |((reference, variable), (name, si)): ((u32, Variable), (String, String))| {
         let kind = match variable {
             Variable::Time => r#"causality="independent" variability="continuous""#.to_owned(),
             Variable::Parameter(index) => {
@@ -76,7 +76,7 @@ fn rows(unit: &Unit) -> Vec<Row> {
         };
         Row { reference, variable, name, unit: si, kind }
     };
-    variables.all().map(row).collect()
+    variables.all().zip(names(unit, &channels)).map(row).collect()
 }
 
 /// The file `modelDescription.xml`; `stop`: end of the default experiment [s].

@@ -123,6 +123,11 @@ impl LifeJournal {
         None
     }
 
+    /// Random lives of the run before, up to the last one that it finished.
+    pub fn random_lives(&self) -> u64 {
+        self.lives(0).and_then(KnownLives::last_key_value).map_or(0, |(number, _)| number + 1)
+    }
+
     /// Lives of a batch that are known.
     pub(super) fn lives(&self, batch: Batch) -> Option<&KnownLives> {
         self.lives.get(&batch)

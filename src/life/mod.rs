@@ -5,6 +5,7 @@
 //! [`LifeStudy::new`] has the defaults of `linkwear life`; change its fields to ask for something else, then
 //! [`LifeStudy::run`].
 
+mod binning;
 mod bins;
 mod cost;
 mod counted;

@@ -96,14 +96,7 @@ impl LifeStudy<'_> {
             Coupling::Table => plan.by_table(&mut source),
             Coupling::Full => plan.by_dynamics(&mut source),
         }?;
-        if let (Some(coarser), Some(mission)) = (Duty::coarser(self, &*system)?, &mut result.mission) {
-            told.begin("half as many bins");
-            let life = |duty: &Duty, cycles: f64| cycles * duty.seconds_per_revolution().unwrap_or(1.0);
-            let sources = coarser.sources(&*system, self.revolutions, between)?;
-            let plan = Plan::new(self, &coarser, joints(&sources)?, journal, (told, between))?;
-            let other = plan.mean_end(&mut KeptSource::new(&coarser, sources, &log))?;
-            mission.binning = Some((life(&coarser, other) / life(&duty, result.end.cycles) - 1.0).abs());
-        }
+        self.judge_binning((&mut result, &duty), &*system, &log, (journal, told, between))?;
         result.turn_errors = source.turn_errors(result.end.joint);
         result.warnings.splice(0..0, source.warnings());
         Ok(result)
@@ -256,7 +249,7 @@ impl<'s> Plan<'s> {
     }
 
     /// Length of the mean path alone [cycles].
-    fn mean_end(&self, source: &mut KeptSource<'_>) -> Result<f64, LifeError> {
+    pub(super) fn mean_end(&self, source: &mut KeptSource<'_>) -> Result<f64, LifeError> {
         let path = match self.coupling {
             Coupling::Table => self.mean_path(&mut self.table(source)?, self.between),
             Coupling::Full => self.mean_path(source, self.watch),

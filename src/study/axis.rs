@@ -41,6 +41,9 @@ pub enum AxisError {
     /// The number behind the colon is none that a grid can have.
     #[error("`{0}` is no number of values from 2 on")]
     Count(String),
+    /// A value of a list has a colon, which stands behind the ends of a range alone.
+    #[error("`{0}` is no value: a number of values stands behind the two ends of a range")]
+    Colon(String),
     /// An end is no number with a unit.
     #[error("the end `{0}` of a range is no number with a unit")]
     End(String),
@@ -73,6 +76,9 @@ impl Axis {
                 let list: Vec<String> = written.split(',').map(|value| value.trim().to_owned()).collect();
                 if list.iter().any(String::is_empty) {
                     return Err(AxisError::Empty(written.to_owned()));
+                }
+                if let Some(value) = list.iter().find(|value| value.contains(':')) {
+                    return Err(AxisError::Colon(value.clone()));
                 }
                 Values::List(list)
             }

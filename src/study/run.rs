@@ -12,14 +12,15 @@ use std::thread::{Builder, available_parallelism};
 use linkwear_codegen::limits::THREADS;
 use linkwear_runtime::{Run, RunError, SampledSignals, Settings, Watch, simulate, simulate_with_inputs};
 use serde_json::{Map, Value, json};
-use thiserror::Error;
 
 use super::cases::{Cases, Last};
+use super::error::{StudyError, check_signals};
 use super::journal::StudyJournal;
 use super::points::Points;
 use super::quantity::{Needs, Quantity};
 use super::result::{Kind, PointError, Row, StudyColumn, StudyFacts, StudyResult};
-use crate::journal::{Identity, JournalError};
+use super::set_anyway::set_anyway;
+use crate::journal::Identity;
 use crate::life::{LifeError, LifeStudy};
 use crate::mechanism::{LoadError, Mechanism};
 use crate::provenance::Provenance;
@@ -36,7 +37,7 @@ pub struct Study<'m> {
     pub of: Vec<Quantity>,
     /// How a run is made, where one is needed.
     pub settings: Settings,
-    /// Inputs over time, the same at every point.
+    /// Inputs over time, the same at every point; those without samples have the values of the point.
     pub signals: Option<&'m SampledSignals>,
     /// How a life is lived, where one is needed; its mechanism gives place to that of the point. All points have the same seed: they
     /// share their random numbers, so that what differs between them is not chance.
@@ -47,22 +48,6 @@ pub struct Study<'m> {
     pub shard: Option<Shard>,
     /// Threads that share the points. None: one per core.
     pub threads: Option<NonZero<usize>>,
-}
-
-/// Why there is no study.
-#[derive(Debug, Error)]
-pub enum StudyError {
-    /// Its journal cannot be used.
-    #[error(transparent)]
-    Journal(#[from] JournalError),
-    /// Stopped on request.
-    #[error("stopped on request after {done} of {of} points")]
-    Interrupted {
-        /// Points that were finished.
-        done: u64,
-        /// Points there are.
-        of: u64,
-    },
 }
 
 /// The point was not run to its end: somebody stops the study.
@@ -78,11 +63,20 @@ pub(crate) enum Fault {
 }
 
 impl Study<'_> {
+    /// Whether what varies and what is asked go with the inputs over time; [`Self::run`] asks it too.
+    ///
+    /// # Errors
+    /// [`StudyError::GivenOverTime`], [`StudyError::LifeOverTime`].
+    pub fn check(&self) -> Result<(), StudyError> {
+        self.signals.map_or(Ok(()), |signals| check_signals(signals, (self.cases, self.points, &self.of)))
+    }
+
     /// Runs all points, or those of the shard.
     ///
     /// # Errors
-    /// [`StudyError::Interrupted`].
+    /// [`StudyError::Interrupted`], and those of [`Self::check`].
     pub fn run(&self, watch: Watch<'_>) -> Result<StudyResult, StudyError> {
+        self.check()?;
         self.run_with(None, watch)
     }
 
@@ -91,6 +85,7 @@ impl Study<'_> {
     /// # Errors
     /// As [`Self::run`], and [`StudyError::Journal`].
     pub fn run_kept(&self, journal: &StudyJournal, watch: Watch<'_>) -> Result<StudyResult, StudyError> {
+        self.check()?;
         journal.begin(self.identity(self.shard))?;
         let result = self.run_with(Some(journal), watch);
         if result.is_ok() {
@@ -214,10 +209,12 @@ impl Study<'_> {
         let run = needs_run.then(|| self.simulated(&mechanism, watch.piece(0.0, share))).transpose()?;
         let life =
             LifeStudy { mechanism: &mechanism, threads: Some(NonZero::<usize>::MIN), ..self.life.clone() };
+        let anyway = if needs_life { set_anyway(&life, self.points) } else { Vec::new() };
         let life = needs_life.then(|| life.run_watched(watch.piece(share, 1.0))).transpose();
         let life = life.map_err(Fault::Life)?;
         let mut warnings: Vec<String> =
             run.iter().flat_map(|run| &run.warnings).map(ToString::to_string).collect();
+        warnings.extend(anyway);
         warnings.extend(life.iter().flat_map(|life| life.warnings.clone()));
         let told = life.map(|life| (life.numbers(life.statistics().as_ref()), life));
         let value = |quantity: &Quantity| match quantity.needs() {

@@ -76,3 +76,69 @@ fn a_segment_at_rest_has_no_revolutions() {
         answer.err
     );
 }
+
+/// An arm that goes to and fro as long one way as the other: in one bin it rests.
+const ARM: &str = r#"spec = 1
+name = "arm"
+gravity = [0, 0, "-9.81 m/s^2"]
+[parameters]
+c0 = { value = "20 um", tunable = true }
+speed = { value = "2 Hz", tunable = true }
+[points]
+O = [0, 0, 0]
+A = ["200 mm", 0, 0]
+[bodies]
+arm = { rod = ["O", "A"], radius = "8 mm", density = "7850 kg/m^3" }
+[joints]
+R1 = { revolute = ["ground", "arm"], at = "O", axis = [0, 1, 0], drive = "2*pi*speed*t" }
+[clearance.R1]
+radial = "c0"
+journal_radius = "10 mm"
+length = "20 mm"
+modulus = "115 GPa"
+restitution = 0.9
+friction = 0.05
+[wear.R1]
+coefficient = 1e-8
+hardness = "3.5 GPa"
+threshold = "80 um"
+revolutions_per_cycle = 1e7
+[missions.m]
+series = "speeds.csv"
+bins = 2
+"#;
+
+/// Its file, with the series beside it.
+fn arm(folder: &Folder) -> String {
+    folder.write("speeds.csv", "t [s],speed [Hz]\n0,-2\n1,2\n");
+    folder.write("arm.toml", ARM)
+}
+
+#[test]
+fn a_life_stands_where_half_as_many_bins_have_none() {
+    let folder = Folder::new("to-and-fro");
+    let file = arm(&folder);
+    let answer = linkwear(&["life", &file, "--mean", "--step", "1e-4", "--settle", "0", "--format", "json"]);
+    assert_eq!(answer.code, 0, "{}{}", answer.out, answer.err);
+    let life = answer.json();
+    assert_eq!(life["mission"]["segments"].as_array().map(Vec::len), Some(2));
+    assert!(life["mission"]["binning_error"].is_null());
+    let warnings = life["warnings"].to_string();
+    assert!(warnings.contains("binning") && warnings.contains("rests in segment `bin1`"), "{warnings}");
+}
+
+#[test]
+fn what_a_mission_sets_anyway_is_told_where_it_varies() {
+    let folder = Folder::new("set-anyway");
+    let file = arm(&folder);
+    let words = ["study", &file, "--of", "life.mean_path", "--mean", "--step", "1e-4", "--settle", "0"];
+    let warnings = |vary: &str, more: &[&str]| {
+        let answer = linkwear(&[&words[..], &["--vary", vary, "--format", "json"], more].concat()).json();
+        assert_eq!(answer["failed"], 0);
+        let told = answer["warnings"].to_string();
+        told.matches("every segment of mission `m` sets `speed`").count()
+    };
+    assert_eq!(warnings("speed=1Hz,3Hz", &[]), 2);
+    assert_eq!(warnings("speed=1Hz,3Hz", &["--no-mission"]), 0);
+    assert_eq!(warnings("c0=20um,30um", &[]), 0);
+}

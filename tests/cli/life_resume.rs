@@ -155,6 +155,13 @@ fn only_the_same_run_goes_on_and_more_lives_extend_it() {
     let more = ask("lives", "90", &["--resume"]);
     assert_eq!(more.out, ask("fresh", "90", &[]).out);
     assert!(results(&folder, "lives") == results(&folder, "fresh"));
+    // With fewer lives the results are of these, and say that there are more.
+    let fewer = ask("lives", "40", &["--resume"]);
+    assert_eq!(fewer.json(), few.json());
+    assert!(fewer.err.contains("keeps 90 random lives, of which 40 are asked for"), "{}", fewer.err);
+    assert!(fewer.err.contains("--trajectories 90"), "{}", fewer.err);
+    let all = ask("lives", "90", &["--resume"]);
+    assert!(all.out == more.out && !all.err.contains("random lives, of which"), "{}", all.err);
 
     let journal = folder.read("lives/life.journal");
     let refused = |more: &[&str], words: &str| {

@@ -402,7 +402,7 @@ fn a_program_gets_the_answer_of_the_command_line_and_may_stop_it() {
 #[test]
 fn wrong_questions_are_answered_with_what_to_write() {
     let ask = |more: &[&str]| study(&[&[RIGID], more, &JSON]);
-    let cases: [(&[&str], i32, &str, &str); 14] = [
+    let cases: [(&[&str], i32, &str, &str); 16] = [
         (&["--vary", "sped=1Hz,2Hz", "--of", "steps"], 1, "E0206", "did you mean `speed`"),
         (&["--vary", "speed=1mm..2mm:3", "--of", "steps"], 1, "E0303", "--vary speed=1 mm"),
         (&["--vary", "speed=1..2:3", "--of", "steps"], 1, "E0304", "--vary speed="),
@@ -410,6 +410,8 @@ fn wrong_questions_are_answered_with_what_to_write() {
         (&["--vary", "speed=1Hz..2Hz", "--of", "steps"], 2, "C0001", "no number of values"),
         (&["--vary", "speed=1Hz..2Hz:1", "--of", "steps"], 2, "C0001", "from 2 on"),
         (&["--vary", "speed", "--of", "steps"], 2, "C0001", "NAME=A..B:N"),
+        (&["--vary", "speed=10:1", "--of", "steps"], 2, "C0001", "`10:1` is no value"),
+        (&["--vary", "speed=1Hz,10:1", "--of", "steps"], 2, "C0001", "or NAME=a,b,c"),
         (
             &["--vary", "speed=1Hz..2Hz:3", "--sample", "sobol:8", "--of", "steps"],
             2,

@@ -107,9 +107,11 @@ impl Dimension {
         }
     }
 
-    /// The SI unit of a quantity that counts turns or radians: what is per second alike is Hz or rad/s.
+    /// The SI unit of a quantity that counts turns or radians: what is a pure number alike is none or rad, what is per second alike
+    /// Hz or rad/s.
     pub fn unit_counting(self, turning: Turning) -> String {
         let over = match self {
+            Self::NONE => ["1", "rad"],
             Self { length: 0, mass: 0, time: -1 } => ["Hz", "rad/s"],
             Self { length: 0, mass: 0, time: -2 } => ["Hz/s", "rad/s^2"],
             _ => return self.si_unit(),

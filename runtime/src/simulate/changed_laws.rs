@@ -24,7 +24,9 @@ pub(super) fn change<'a>(
     change(evaluator)?;
     if let Err(error) = laws_go_on(evaluator, (t, state), &laws, arm) {
         undo(evaluator);
-        return Err(error);
+        // Who sets a time without its state has opened the loops before: no value of a parameter closes them then.
+        let was_open = open_loop(evaluator, (t, state), arm);
+        return Err(was_open.map_or(error, |(joint, open)| SetupError::NotOnLoops { joint, open, t }));
     }
     Ok(before)
 }
@@ -48,12 +50,16 @@ fn laws_go_on(
             }
         }
     }
+    if let Some((joint, jump)) = open_loop(evaluator, (t, state), arm) {
+        return Err(SetupError::Jump { what: format!("joint {joint}"), jump });
+    }
+    check_clearances(evaluator, t, state)
+}
+
+/// The joint where loops are open at a state, and how far [m or rad].
+fn open_loop(evaluator: &mut Evaluator<'_>, (t, state): (f64, &State), arm: f64) -> Option<(String, f64)> {
     evaluator.closure(t, &state.q, &state.v);
     let open = evaluator.loop_error();
     let closed = open.part(arm) <= CLOSED;
-    if !closed {
-        let what = format!("joint {}", evaluator.joint_of_row(open.worst));
-        return Err(SetupError::Jump { what, jump: open.metres.max(open.radians) });
-    }
-    check_clearances(evaluator, t, state)
+    (!closed).then(|| (evaluator.joint_of_row(open.worst), open.metres.max(open.radians)))
 }

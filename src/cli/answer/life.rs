@@ -185,7 +185,7 @@ pub struct MissionAnswer<'a> {
     pub missions: Option<f64>,
     /// Length of a revolution on average [s]; null where they last differently.
     pub seconds_per_revolution: Option<f64>,
-    /// By how much of itself the mean path's life is another in half as many bins; null unless segments are bins of a series.
+    /// By how much of itself the mean path's life is another in half as many bins; null unless segments are bins of a series, and where half as many bins have no life.
     pub binning_error: Option<f64>,
     /// Its segments, in the order of the file.
     pub segments: Vec<SegmentAnswer<'a>>,

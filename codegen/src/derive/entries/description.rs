@@ -112,7 +112,7 @@ impl Deriver<'_> {
             let mut dimension = Some(input.dimension);
             for suffix in INPUT_RATES.iter().filter(|_| mechanism.drives_follow(ParameterId::new(at))) {
                 dimension = dimension.and_then(|of| of.over(Dimension::TIME));
-                let unit = dimension.map(Dimension::si_unit).unwrap_or_default();
+                let unit = dimension.map(|of| of.unit_counting(input.turning)).unwrap_or_default();
                 let name = format!("{}{suffix}", input.name);
                 infos.push(ParameterInfo { name: name.into(), unit: unit.into(), default: 0.0 });
                 roles.push(InputRole::RateOfPrevious);
