@@ -1,6 +1,7 @@
 //! Tables of numbers in CSV files. In: a path. Out: cells by named columns, with their lines; or what is wrong, where, and
 //! what to do. Never knows what the columns mean.
 
+mod faults;
 mod number;
 pub(crate) mod rows;
 
@@ -12,6 +13,7 @@ use linkwear_codegen::input::read_text;
 use linkwear_codegen::limits;
 use thiserror::Error;
 
+use self::faults::{gather, told};
 use self::rows::{BrokenRow, Row, Rows};
 use crate::checksum::sha256_of;
 
@@ -43,6 +45,14 @@ pub enum CsvError {
         message: String,
         /// What to do.
         help: String,
+    },
+    /// Several things are.
+    #[error("{}", told(.faults, *.more))]
+    Several {
+        /// The first of them.
+        faults: Vec<CsvError>,
+        /// How many come behind those.
+        more: usize,
     },
 }
 
@@ -83,8 +93,7 @@ impl<'a> CsvTable<'a> {
         let (head, header) = header.map_err(|row| broken(file, &[], row))?;
         let header: Vec<String> = header.iter().map(str::to_owned).collect();
         let before = rows.comments().len();
-        let read = rows.by_ref().collect::<Result<Vec<Row>, _>>();
-        let read = read.map_err(|row| broken(file, &header, row))?;
+        let read = gather(rows.by_ref().map(|row| row.map_err(|row| broken(file, &header, row))))?;
         let comments = &rows.comments()[before..];
         let like_rows = comments.iter().filter(|comment| is_like_a_row(comment, header.len())).count();
         Ok(Self { file, head, header, rows: read, like_rows, sha256: sha256_of(text.as_bytes()) })
@@ -160,7 +169,7 @@ impl<'a> CsvTable<'a> {
             let value = cell.parse::<f64>().ok().filter(|value| value.is_finite());
             value.ok_or_else(|| self.no_number(*line, column, cell))
         };
-        self.rows.iter().map(number).collect()
+        gather(self.rows.iter().map(number))
     }
 
     /// The same where a number may stand after one of some marks: which, and the number.
@@ -176,7 +185,7 @@ impl<'a> CsvTable<'a> {
             let value = rest.parse::<f64>().ok().filter(|value| value.is_finite());
             value.map(|value| (mark, value)).ok_or_else(|| self.no_number(*line, column, cell))
         };
-        self.rows.iter().map(read).collect()
+        gather(self.rows.iter().map(read))
     }
 
     /// The same where cells may be empty.
@@ -192,7 +201,7 @@ impl<'a> CsvTable<'a> {
                 None => Err(self.no_number(*line, column, cell)),
             },
         };
-        self.rows.iter().map(read).collect()
+        gather(self.rows.iter().map(read))
     }
 
     fn no_number(&self, line: usize, column: usize, cell: &str) -> CsvError {
@@ -208,7 +217,7 @@ impl<'a> CsvTable<'a> {
     /// [`CsvError::Data`].
     pub fn names(&self, column: &str) -> Result<Vec<String>, CsvError> {
         let names = self.texts(column)?;
-        for (name, line) in names.iter().zip(self.lines()) {
+        let named = names.into_iter().zip(self.lines()).map(|(name, line)| {
             let wrong = |cause: &str, help: &str| {
                 let message = format!("line {line}: `{}` {cause}", cut(column, SHOWN[0]));
                 Err(fault(self.file, Some(line), message, help))
@@ -222,8 +231,9 @@ impl<'a> CsvTable<'a> {
                 let cause = format!("is `{shown}`, with a control character ({letter})");
                 return wrong(&cause, "delete the character; write the file as plain text, UTF-8");
             }
-        }
-        Ok(names)
+            Ok(name)
+        });
+        gather(named)
     }
 
     /// The cells of a column.

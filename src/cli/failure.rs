@@ -74,6 +74,15 @@ impl Failure {
         self
     }
 
+    /// Two things that were asked for, or all that is wrong with them.
+    pub fn both<A, B>(a: Result<A, Self>, b: Result<B, Self>) -> Result<(A, B), Self> {
+        match (a, b) {
+            (Ok(a), Ok(b)) => Ok((a, b)),
+            (Err(a), Err(b)) => Err(a.and(b)),
+            (Err(error), _) | (_, Err(error)) => Err(error),
+        }
+    }
+
     /// The arguments do not fit this mechanism or each other.
     pub fn usage(message: impl Display, help: impl Display) -> Self {
         Self { exit: USAGE, ..Self::new("C0001", None, message, help) }
@@ -331,6 +340,14 @@ impl From<CsvError> for Failure {
         match error {
             CsvError::Read { file, error } => Self::read(&file)(error),
             CsvError::Data { file, line, message, help } => Self::data(&file, line, message, help),
+            CsvError::Several { faults, more } => {
+                let all = faults.into_iter().map(Self::from).reduce(Self::and);
+                let mut all = all.unwrap_or_else(|| Self::new("C0011", None, "the file is wrong", ""));
+                if more > 0 {
+                    let _ = write!(all.text, "\n\nand {more} more of them");
+                }
+                all
+            }
         }
     }
 }

@@ -22,16 +22,23 @@ pub struct Group {
 
 /// All readings, by group in order of first appearance.
 pub fn groups(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<Group>, Failure> {
-    let units = table.names(&arguments.unit)?;
-    let wears = wears(arguments, table)?;
-    let (resets, limits) = (resets(arguments, table)?, limits(arguments, table)?);
-    let exposures = clock(arguments, table)?;
-    let covariates = arguments.covariates().map(|name| table.numbers(name));
-    let covariates = covariates.collect::<Result<Vec<_>, _>>()?;
-    let names = match &arguments.groups {
-        Some(name) => table.names(name)?,
-        None => vec!["all".to_owned(); units.len()],
-    };
+    // Every column is looked at: a file's faults come together.
+    let mut covariates = Ok(Vec::new());
+    for name in arguments.covariates() {
+        let both = Failure::both(covariates, table.numbers(name).map_err(Failure::from));
+        covariates = both.map(|(mut all, one)| {
+            all.push(one);
+            all
+        });
+    }
+    let names = arguments.groups.as_ref().map(|name| table.names(name)).transpose();
+    let units =
+        Failure::both(table.names(&arguments.unit).map_err(Failure::from), names.map_err(Failure::from));
+    let marks = Failure::both(resets(arguments, table), limits(arguments, table));
+    let numbers = Failure::both(wears(arguments, table), clock(arguments, table));
+    let columns = Failure::both(Failure::both(units, numbers), Failure::both(covariates, marks));
+    let (((units, names), (wears, exposures)), (covariates, (resets, limits))) = columns?;
+    let names = names.unwrap_or_else(|| vec!["all".to_owned(); units.len()]);
     let mut groups: Vec<Group> = Vec::new();
     let mut places: HashMap<&str, usize> = HashMap::new();
     for (at, line) in table.lines().enumerate() {
