@@ -54,6 +54,17 @@ pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic 
             );
             start_impossible(mechanism, names, message)
         }
+        AssemblyError::TurnedRound { joint } => {
+            let message = format!(
+                "the loop through `{joint}` closes only with that joint turned half round: its axis reversed, or its parts upside \
+                 down"
+            );
+            let diagnostic = Diagnostic::new(Code::LoopDoesNotClose, message).help(
+                "start nearer to the wanted assembly with [assembly]; values there, in [initial], or of drivers at t = 0 may be \
+                 half a turn off",
+            );
+            at_joint(diagnostic, mechanism, joint, "turned half round")
+        }
         AssemblyError::HeldSpeeds { names, joint, .. } => {
             let message = format!(
                 "the start speeds of {} cannot all be met: the loop through `{joint}` forbids it",
