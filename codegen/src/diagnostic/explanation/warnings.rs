@@ -257,7 +257,8 @@ hook = { fixed = ["ram", "flap"], at = "P" }"#,
         code: Code::NoFullTurn,
         file: File::Press,
         text: "Drivers that the loops do not let go on: a crank longer than its rod cannot turn once round, a \
-               stroke can be longer than a linkage reaches. The message says when and where the motion ends.",
+               stroke can be longer than a linkage reaches. The message says when and where the motion ends, or where laws jump so \
+               that it could not be followed.",
         wrong: r#"[points]
 A = ["130 mm", 0, 0]
 P = ["200 mm", 0, 0]"#,
