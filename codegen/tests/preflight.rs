@@ -345,3 +345,10 @@ fn no_way_to_close_a_loop_turns_a_joint_over() {
         assert!(pin.abs() < 1e-6, "{more}: {pin}");
     }
 }
+
+#[test]
+fn play_that_a_plane_linkage_does_not_need_is_no_reason_why_it_moves() {
+    let loose = "[clearance.gd]\nradial = \"5 um\"\njournal_radius = \"20 mm\"\nlength = \"60 mm\"\nends = \"journal\"\n\
+        modulus = \"115 GPa\"\nrestitution = 0.5\n";
+    assert_eq!(warnings(&format!("{TURNING_RAM}{loose}")), "");
+}

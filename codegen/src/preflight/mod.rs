@@ -90,6 +90,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.modes = analysis.speeds - joint_speeds.len();
     let of_joints =
         if analysis.modes == 0 { rows.rank() } else { Rows::of_speeds(&positions, &joint_speeds).rank() };
+    analysis.unmoved_rows = rows.unmoved();
     analysis.mobility = joint_speeds.len() - of_joints;
     for (info, _) in description.rows.iter().zip(&keep).filter(|(_, kept)| !**kept) {
         analysis.redundant.push(Redundant {

@@ -69,9 +69,10 @@ pub fn check_without_play(
     if rank == sizes.all_speeds {
         return Ok(by_clearance("without them it is a structure"));
     }
-    let redundant = |all: usize, independent: usize| all - independent;
-    let more = redundant(sizes.all_rows, rank)
-        .saturating_sub(redundant(with_play.constraint_rows, with_play.independent_rows));
+    // What holds a plane linkage in its plane is redundant whatever its lengths are; play of a journal that tilts makes it none.
+    let redundant = |all: usize, independent: usize, unmoved: usize| all - independent - unmoved;
+    let of_play = redundant(with_play.constraint_rows, with_play.independent_rows, with_play.unmoved_rows);
+    let more = redundant(sizes.all_rows, rank, rows.unmoved()).saturating_sub(of_play);
     Ok(match more {
         0 => turn_remarks(case, &positions),
         1 => by_clearance(
