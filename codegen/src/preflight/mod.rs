@@ -14,6 +14,7 @@ mod failures;
 mod friction;
 mod idle;
 mod immobile;
+mod immovable;
 mod own_units;
 mod plausible;
 mod prescribed;
@@ -100,9 +101,10 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         });
     }
     let misses = |speed| case.walker().driver_misses(&positions.positions[0], speed, &[]);
-    let mut errors = failures::conflicts(mechanism, &drivers, &rows, &misses);
+    let rigid = || immobile::rigid_joints(case, &positions);
+    let mut errors = immovable::conflicts(mechanism, &drivers, &rows, (&misses, &rigid));
     if analysis.speeds == analysis.independent_rows {
-        errors.insert(0, failures::locked(mechanism, &analysis));
+        errors.insert(0, immovable::locked(mechanism, &analysis));
     }
     if errors.is_empty() {
         errors.extend(start_fault(case, &analysis, (&rows, &positions), refusal.as_ref()));
@@ -127,9 +129,9 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     if !errors.is_empty() {
         return fail(errors);
     }
-    let rigid = immobile::rigid_joints(case, &positions);
+    let rigid = rigid();
     let mut warnings =
-        if rigid.is_empty() { Vec::new() } else { vec![failures::rigid_part(mechanism, &rigid)] };
+        if rigid.is_empty() { Vec::new() } else { vec![immovable::rigid_part(mechanism, &rigid)] };
     warnings.extend(resonance::near_resonance(mechanism));
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);

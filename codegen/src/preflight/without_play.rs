@@ -12,7 +12,7 @@ use super::case::Case;
 use super::course::Course;
 use super::rank::{Lost, Rows};
 use super::samples::ClosedPositions;
-use super::{failures, idle, turn};
+use super::{failures, idle, immobile, immovable, turn};
 
 /// Checks drivers, freedoms and loops of the case of [`Mechanism::with_clearances_closed`].
 ///
@@ -53,7 +53,8 @@ pub fn check_without_play(
             <= play
     };
     if conflicts.iter().any(|group| !follows(group)) {
-        return fail(failures::conflicts(mechanism, &drivers, &rows, &|_| f64::INFINITY));
+        let rigid = || immobile::rigid_joints(case, &positions);
+        return fail(immovable::conflicts(mechanism, &drivers, &rows, (&|_| f64::INFINITY, &rigid)));
     }
     if !conflicts.is_empty() {
         return Ok(by_clearance("without them its drivers would be blocked"));
