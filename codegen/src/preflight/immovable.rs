@@ -9,7 +9,7 @@ use crate::model::{Joint, Mechanism};
 
 use super::analysis::Analysis;
 use super::exactness::{NEARLY, ROUNDING};
-use super::failures::{named, quoted};
+use super::failures::{at_joint, named, quoted};
 use super::rank::Rows;
 
 /// No freedom at all.
@@ -86,6 +86,17 @@ fn held_without_driver(mechanism: &Mechanism, driven: JointId, rigid: &[JointId]
              joints (for instance make a revolute spherical), or drive a joint that moves"
         )
     })
+}
+
+/// Loops that close in one position alone.
+pub fn stretched(mechanism: &Mechanism, joint: &str) -> Diagnostic {
+    let message = format!(
+        "nothing can move: the loop through `{joint}` is stretched to its limit, or folded to it, and closes where it is drawn alone"
+    );
+    let diagnostic = Diagnostic::new(Code::Locked, message).help(
+        "lengthen a link of it, or bring its points nearer to each other (shorten a link, if it is folded)",
+    );
+    at_joint(diagnostic, mechanism, joint, "in this loop")
 }
 
 #[cfg(test)]

@@ -24,6 +24,7 @@ mod resonance;
 mod samples;
 mod start;
 mod stopped;
+mod stretched;
 mod subspace;
 mod turn;
 mod without_play;
@@ -85,6 +86,9 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         Err(error) => return fail(vec![failures::cannot_close(mechanism, &error)]),
     };
     let rows = Rows::new(&positions, drivers.iter().map(|(_, speed)| *speed).collect());
+    if let Some(row) = stretched::stretched(case, &positions) {
+        return fail(vec![immovable::stretched(mechanism, &description.rows[row].joint)]);
+    }
     let keep = rows.independent();
     analysis.independent_rows = keep.iter().filter(|kept| **kept).count();
     let joint_speeds = case.linkage.joint_speeds();
