@@ -351,4 +351,21 @@ bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = 
 [joints]
 hinge = { prismatic = ["ground", "bar"], at = "O", axis = [0, 1, 0] }"#,
     },
+    Explanation {
+        code: Code::HeldElsewhere,
+        file: File::Swing,
+        text: "A spring, a force or another element holds a point on a body that does not have it, where others do: points that \
+               are swapped, or a wrong name. The element acts where the point is drawn, on the body that it names. Where that is \
+               meant, `on` says so.",
+        wrong: r#"[points]
+P = { at = ["1 m", "-0.5 m", 0], on = "ground" }
+
+[forces]
+coil = { spring = ["ground", "bar"], at = ["A", "P"], stiffness = "2 kN/m", length = "500 mm" }"#,
+        right: r#"[points]
+P = { at = ["1 m", "-0.5 m", 0], on = "ground" }
+
+[forces]
+coil = { spring = ["ground", "bar"], at = ["P", "A"], stiffness = "2 kN/m", length = "500 mm" }"#,
+    },
 ];
