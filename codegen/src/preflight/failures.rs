@@ -134,10 +134,14 @@ fn start_impossible(mechanism: &Mechanism, names: &[String], message: String) ->
     let diagnostic = Diagnostic::new(Code::StartImpossible, message)
         .at_each(driven.map(|joint| joint.span), "driven from there")
         .at_each(demanded(mechanism, names).map(|start| start.span), "demanded here");
-    diagnostic.help(
-        "demand no more start values than there are freedoms without a driver, and give the others in [assembly] \
-         as guesses",
-    )
+    let starts = mechanism.starts.iter().filter(|start| start.held && start.position.is_some());
+    diagnostic.help(match starts.count() + mechanism.drives().count() {
+        1 => "the loops do not let it get there: demand what they reach, or change lengths; in [assembly] it is a guess",
+        _ => {
+            "demand no more start values than there are freedoms without a driver, and give the others in [assembly] as \
+             guesses"
+        }
+    })
 }
 
 /// Demanded start values among `names`.
