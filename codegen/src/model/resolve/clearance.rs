@@ -27,7 +27,8 @@ impl Resolver<'_> {
     pub(super) fn add_clearance(&mut self, file: &File) {
         for (name, written) in &file.clearance.0 {
             let Some(id) = self.joint_named(name, "[clearance]") else { continue };
-            let Some(kind) = self.joint_models.get(id.index()).map(|model| model.kind) else { continue };
+            let known = self.joint_models.get(id.index()).filter(|model| !model.stands_in);
+            let Some(kind) = known.map(|model| model.kind) else { continue };
             if self.joint_models[id.index()].is_driven_ball() {
                 let message = format!(
                     "joint `{}`: a ball whose three angles are prescribed cannot have clearance",
