@@ -71,6 +71,19 @@ fn every_mistake_leads_to_its_cure() {
     assert!(asked >= 200, "{asked}");
 }
 
+#[test]
+fn a_misspelt_kind_of_joint_is_one_mistake() {
+    let misspelt = right("press")
+        .replace("pin = { revolute =", "pin = { hinge =")
+        .replace("R1 = { revolute =", "R1 = { hinge =");
+    let initial = format!("{misspelt}\n[initial]\nR1 = \"0 deg\"\n");
+    for text in [misspelt, initial] {
+        let answer = answer(&text, &[]);
+        let codes: Vec<_> = answer.entries().iter().map(|entry| entry.code).collect();
+        assert_eq!(codes, ["E0104", "E0104"], "{answer}");
+    }
+}
+
 /// What stands after `words` in an advice: a quantity in quotes, or a number.
 fn literal<'h>(help: &'h str, words: &str) -> Option<&'h str> {
     let rest = help.split_once(words)?.1;

@@ -2,7 +2,9 @@
 
 use linkwear_codegen::compile::{Compiled, Options, compile};
 use linkwear_codegen::diagnostic::Diagnostics;
+use linkwear_codegen::model::Closure;
 use linkwear_codegen::source::SourceFile;
+use linkwear_runtime::{Integrator, Settings, Span, Watch, simulate};
 
 const SLIDER_CRANK: &str = r#"
 [points]
@@ -246,4 +248,107 @@ fn what_a_file_integrates_beside_contacts_and_modes_is_no_matter_of_positions() 
     let state = "[states]\nx = { initial = \"0 rad\", rate = \"R.v\" }\n";
     // A state changes nothing about contacts and modes.
     assert_eq!(warnings(&format!("{body}{state}")), without);
+}
+
+/// A crank that drives a ram whose cylindrical guide lets it turn.
+const TURNING_RAM: &str = r#"
+[points]
+O = [0, 0, 0]
+A = ["0.05*s", 0, 0]
+P = ["0.25*s", 0, 0]
+C = ["0.25*s", 0, "0.1*s"]
+[bodies]
+crank = { rod = ["O", "A"], radius = "0.01*s", density = "7850 kg/m^3" }
+rod = { rod = ["A", "P"], radius = "0.008*s", density = "7850 kg/m^3" }
+ram = { mass = "2 kg", centre = "C", inertia = ["2e-3 kg*s^2", "2e-3 kg*s^2", "2e-3 kg*s^2"] }
+[joints]
+main = { revolute = ["ground", "crank"], at = "O", axis = [0, 0, 1], drive = "2*pi*speed*t" }
+big = { revolute = ["crank", "rod"], at = "A", axis = [0, 0, 1] }
+wrist = { revolute = ["rod", "ram"], at = "P", axis = [0, 0, 1] }
+gd = { cylindrical = ["ground", "ram"], at = "P", axis = [1, 0, 0], damping = { q2 = "100 N s/m" } }
+"#;
+
+/// Balls at both ends of the rod; of a slide or a hinge that closes the loop rows of angles are sines.
+const BALL_ROD: &str = r#"
+[points]
+O = [0, 0, 0]
+A = ["0.05*s", 0, 0]
+B = ["0.3*s", "0.1*s", "0.12*s"]
+C = ["0.3*s", "0.1*s", 0]
+G = ["0.3*s", "0.14*s", "0.06*s"]
+[bodies]
+crank = { rod = ["O", "A"], radius = "0.01*s", density = "7850 kg/m^3" }
+rod = { rod = ["A", "B"], radius = "0.006*s", density = "7850 kg/m^3" }
+last = { mass = "1 kg", centre = "G", inertia = ["1e-3 kg*s^2", "2e-3 kg*s^2", "2e-3 kg*s^2"] }
+[joints]
+main = { revolute = ["ground", "crank"], at = "O", axis = [0, 0, 1], drive = "2*pi*speed*t" }
+s1 = { spherical = ["crank", "rod"], at = "A" }
+s2 = { spherical = ["rod", "last"], at = "B" }
+end = { revolute = ["ground", "last"], at = "C", axis = [0, 1, 0], cut = true }
+"#;
+
+/// Drive torques over a tenth of a turn.
+fn torques(body: &str, more: &str, closure: Closure) -> Vec<f64> {
+    let options = Options { closure: Some(closure), ..Options::default() };
+    let compiled = compile(&file(body, more), &options).unwrap_or_else(|errors| panic!("{errors}"));
+    let settings = Settings::new(Integrator::Rk4 { step: 1e-3 }, Span::Time(0.05), 6);
+    let run = simulate(
+        &compiled.interpreter(),
+        compiled.description(),
+        &compiled.parameters(),
+        &settings,
+        Watch::NONE,
+    );
+    run.expect("it runs").column("main.drive").expect("it is driven")
+}
+
+#[test]
+fn a_guess_half_a_turn_off_does_not_turn_a_joint_over() {
+    let slide = BALL_ROD.replace(
+        "revolute = [\"ground\", \"last\"], at = \"C\"",
+        "prismatic = [\"ground\", \"last\"], at = \"C\"",
+    );
+    // One that the crank can drive goes along the rod.
+    let slide = slide.replace("axis = [0, 1, 0], cut", "axis = [1, 0, 0.2], cut");
+    for (body, guess) in [
+        (TURNING_RAM, "gd = { q1 = \"180 deg\" }"),
+        (TURNING_RAM, "gd = { q1 = \"150 deg\" }"),
+        (BALL_ROD, "s2 = [0, 0, \"170 deg\"]"),
+        (&slide, "s2 = [0, \"179 deg\", 0]"),
+    ] {
+        let guess = format!("[assembly]\n{guess}\n");
+        let [right, found] = [Closure::Log, Closure::Joint].map(|closure| torques(body, &guess, closure));
+        let most = right.iter().fold(0.0_f64, |most, torque| most.max(torque.abs()));
+        for (found, right) in found.iter().zip(right) {
+            // Rods spin about themselves at other rates, which moves no load; assembly ends within 1e-10 of the closed position.
+            assert!((found - right).abs() < 1e-6 * most, "{guess}: {found} {right}");
+        }
+    }
+}
+
+#[test]
+fn no_way_to_close_a_loop_turns_a_joint_over() {
+    let yoke = "[points]\nO = [0, 0, 0]\nA = [\"0.1*s\", 0, 0]\n[bodies]\n\
+        crank = { rod = [\"O\", \"A\"], radius = \"0.01*s\", density = \"7850 kg/m^3\" }\n\
+        block = { mass = \"1 kg\", centre = \"A\", inertia = [\"1e-3 kg*s^2\", \"1e-3 kg*s^2\", \"1e-3 kg*s^2\"] }\n\
+        yoke = { mass = \"2 kg\", centre = \"A\" }\n[joints]\n\
+        main = { revolute = [\"ground\", \"crank\"], at = \"O\", axis = [0, 0, 1], drive = \"2*pi*speed*t\" }\n\
+        pin = { revolute = [\"crank\", \"block\"], at = \"A\", axis = [0, 0, 1] }\n\
+        slot = { prismatic = [\"yoke\", \"block\"], at = \"A\", axis = [0, 1, 0] }\n\
+        guide = { prismatic = [\"ground\", \"yoke\"], at = \"A\", axis = [1, 0, 0] }\n";
+    // A Scotch yoke goes together in one way, which a pin half a turn off leads to as well.
+    let turned = "[assembly]\npin = \"-180 deg\"\n";
+    for more in ["", turned] {
+        let assemblies = compiled(yoke, more, &[]).assemblies();
+        assert_eq!(assemblies.others, Vec::<Vec<_>>::new(), "{more}");
+        let pin = assemblies.taken.iter().find(|at| at.joint == "pin").expect("it is free").value;
+        assert!(pin.abs() < 1e-6, "{more}: {pin}");
+    }
+}
+
+#[test]
+fn play_that_a_plane_linkage_does_not_need_is_no_reason_why_it_moves() {
+    let loose = "[clearance.gd]\nradial = \"5 um\"\njournal_radius = \"20 mm\"\nlength = \"60 mm\"\nends = \"journal\"\n\
+        modulus = \"115 GPa\"\nrestitution = 0.5\n";
+    assert_eq!(warnings(&format!("{TURNING_RAM}{loose}")), "");
 }

@@ -161,6 +161,15 @@ pub enum AssemblyError {
         /// Largest residual of a row in radians.
         residual_rad: f64,
     },
+    /// The loops close where a joint is turned half round, and nowhere else that was found.
+    #[error(
+        "the loops close only with joint `{joint}` turned half round, its axis reversed or its parts upside down, which it does not \
+         allow; give start values nearer to the wanted position, or change demanded ones by half a turn"
+    )]
+    TurnedRound {
+        /// The joint, one that closes a loop.
+        joint: String,
+    },
     /// The loops close, but not with the demanded start values.
     #[error(
         "the start values of {} cannot all be met: with them the loops stay open by {residual_m:.3e} m and \

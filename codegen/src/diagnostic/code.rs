@@ -226,6 +226,8 @@ codes! {
     FrictionNotUnique = "W0121",
     /// A joint keeps a section of a flexible link from turning, and its shapes do not.
     HeldAsFree = "W0122",
+    /// A force element holds a point on a body that does not have it, where others do.
+    HeldElsewhere = "W0123",
 }
 
 impl Code {

@@ -4,6 +4,7 @@ use linkwear_runtime::ContactInfo;
 
 use super::{Formula, Joint, Mechanism};
 use crate::id::ParameterId;
+use crate::source::Span;
 
 /// A joint with clearance.
 #[derive(Clone, Debug)]
@@ -16,6 +17,21 @@ pub struct Clearance {
     pub journal: Option<f64>,
     /// Factor on the wear coefficient, if it varies: over pressure and sliding speed, places 0 and 1.
     pub factor: Option<WearFactor>,
+    /// Where the file has them.
+    pub places: ClearancePlaces,
+}
+
+/// Where the file has numbers of a joint with clearance; where it has none, the place of the clearance.
+#[derive(Clone, Copy, Debug)]
+pub struct ClearancePlaces {
+    /// Of the contact modulus.
+    pub modulus: Span,
+    /// Of the hardness.
+    pub hardness: Span,
+    /// Of the wear coefficient.
+    pub coefficient: Span,
+    /// Of the wear threshold.
+    pub threshold: Span,
 }
 
 /// A place where the two sides of a joint with clearance touch.

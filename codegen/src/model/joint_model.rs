@@ -39,6 +39,8 @@ pub struct JointModel {
     pub clearance: bool,
     /// Whether the axis tilts within it besides, and which side has the ends that touch.
     pub tilt: Option<Ends>,
+    /// Whether it stands for a joint whose kind the file does not say, which has been told.
+    pub stands_in: bool,
 }
 
 impl JointModel {
@@ -49,12 +51,12 @@ impl JointModel {
     #[expect(clippy::expect_used, reason = "documented: names are written in code, never read from files")]
     pub fn new(name: &str, axes: &[Axis]) -> Self {
         let kind = JointKind::named(name).expect("the name of a kind of joint");
-        Self { kind, axes: axes.to_vec(), lead: 0.0, clearance: false, tilt: None }
+        Self { kind, axes: axes.to_vec(), lead: 0.0, clearance: false, tilt: None, stands_in: false }
     }
 
-    /// A joint that takes nothing away.
-    pub fn free() -> Self {
-        Self::new(FREE, &[])
+    /// In place of a joint whose kind is not known: it takes nothing away.
+    pub fn stand_in() -> Self {
+        Self { stands_in: true, ..Self::new(FREE, &[]) }
     }
 
     /// Number of its coordinate that turns about its axis.
@@ -142,7 +144,7 @@ impl JointModel {
     /// A spherical joint whose rotation is prescribed, by three angles about axes that are those of W at the reference pose.
     pub fn driven_ball() -> Self {
         let axes = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]].map(Axis::both).to_vec();
-        Self { kind: &DRIVEN_BALL, axes, lead: 0.0, clearance: false, tilt: None }
+        Self { kind: &DRIVEN_BALL, axes, lead: 0.0, clearance: false, tilt: None, stands_in: false }
     }
 
     /// Whether it is one.
@@ -266,7 +268,8 @@ mod tests {
             for (clearance, tilt) in
                 [(false, None)].into_iter().chain(loose.into_iter().take(1 + usize::from(kind.tilts)))
             {
-                let model = JointModel { kind, axes: Vec::new(), lead: 1.0, clearance, tilt };
+                let model =
+                    JointModel { kind, axes: Vec::new(), lead: 1.0, clearance, tilt, stands_in: false };
                 let freedoms = model.start_values().len() + model.offsets().len() + model.tilts().len();
                 let numbers: Vec<usize> = model.primitives().iter().map(|(number, _)| *number).collect();
                 assert_eq!(numbers.len(), numbers.iter().collect::<std::collections::BTreeSet<_>>().len());

@@ -32,7 +32,7 @@ mod table;
 pub mod topology;
 pub use crate::spec::{Closure, Ends};
 pub use body::{Amount, Body, Flexible, Inertia, LeftOut, Station};
-pub use clearance::{Clearance, ContactPlace, WearFactor};
+pub use clearance::{Clearance, ClearancePlaces, ContactPlace, WearFactor};
 pub use coordinate::Coordinate;
 pub use coupling::{
     ByMultiplier, Compliance, CoupledCoordinate, Coupling, ForceColumn, MeshSide, PitchCircle,

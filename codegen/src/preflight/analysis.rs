@@ -24,6 +24,8 @@ pub struct Analysis {
     pub constraint_rows: usize,
     /// Rows that are independent in general positions.
     pub independent_rows: usize,
+    /// Combinations of rows that no motion changes, whatever lengths are: what holds a plane linkage in its plane.
+    pub unmoved_rows: usize,
     /// Speeds less independent rows, with flexible bodies taken as rigid: the true number of freedoms.
     pub mobility: usize,
     /// The Grübler-Kutzbach count, which knows no special geometry.

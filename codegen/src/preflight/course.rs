@@ -32,6 +32,11 @@ const STEPS: usize = 288;
 const RESTING: usize = 60;
 /// First step of time that is tried [s]; the laws tell how long the next ones are.
 const FIRST: f64 = 1e-6;
+/// Halvings, in the logarithm, of the times between which a driver makes its longest step: those of neighbours differ by a factor of ten
+/// at most, and 60 are left of rounding.
+const HALVINGS: usize = 60;
+/// Part of the longest step that a step has at least: less is left of it where a law jumps.
+const LEAST: f64 = 0.5;
 /// Places within a step of time at which drivers are looked at, so that none goes to and fro in it unseen.
 const WITHIN: usize = 4;
 
@@ -44,6 +49,16 @@ pub struct Waypoint {
     pub q: Vec<f64>,
 }
 
+/// What the laws of the drivers say of the next step.
+enum Next {
+    /// The time that it takes [s], and how far the fastest driver goes in it.
+    Step { span: f64, far: f64 },
+    /// The drivers rest for good.
+    Rest,
+    /// They jump, or are no numbers.
+    Unknown,
+}
+
 /// The motion as far as it was followed.
 pub struct Course<'a> {
     case: &'a Case<'a>,
@@ -54,6 +69,8 @@ pub struct Course<'a> {
     pub waypoints: Vec<Waypoint>,
     /// Whether the loops cannot be closed after the last of them.
     pub ends: bool,
+    /// Whether the laws of the drivers do not tell how the motion goes on after the last of them: they jump there, or are no numbers.
+    pub is_lost: bool,
     /// Whether drivers alone tell the positions, but for idle freedoms; else others go as little as they can.
     pub determined: bool,
 }
@@ -97,7 +114,16 @@ impl<'a> Course<'a> {
         // Closed without play: which side of its bearing a journal rests on is no matter of kinematics.
         let mut q = start.q.clone();
         play.iter().for_each(|(_, coordinate)| q[*coordinate] = 0.0);
-        let mut course = Self { case, walker, drivers, free, waypoints: Vec::new(), ends: false, determined };
+        let mut course = Self {
+            case,
+            walker,
+            drivers,
+            free,
+            waypoints: Vec::new(),
+            ends: false,
+            is_lost: false,
+            determined,
+        };
         let first = course.close(q)?;
         course.waypoints.push(Waypoint { t: 0.0, q: first });
         course.go_on();
@@ -135,7 +161,14 @@ impl<'a> Course<'a> {
             if end.map_or(gone >= TAU, |end| last.t >= end) {
                 return;
             }
-            let Some((whole, moved)) = self.next_span(last.t, span) else { return };
+            let (whole, moved) = match self.next_span(last.t, span) {
+                Next::Step { span, far } => (span, far),
+                Next::Rest => return,
+                Next::Unknown => {
+                    self.is_lost = true;
+                    return;
+                }
+            };
             let tried = loop {
                 let next = self.at(last, last.t + part * whole);
                 if next.is_some() || part <= SHORTEST {
@@ -162,40 +195,72 @@ impl<'a> Course<'a> {
 
     /// The time in which the fastest driver makes its longest step, and how far it goes in it. A driver that slows down or
     /// turns back makes a shorter one in at most twice the last time.
-    fn next_span(&self, t: f64, last: f64) -> Option<(f64, f64)> {
+    fn next_span(&self, t: f64, last: f64) -> Next {
         let is_first = self.waypoints.len() == 1;
-        let from = self.positions(t)?;
-        let moved = |span: f64| {
-            let mut most = 0.0_f64;
-            for part in 1..=WITHIN {
-                let to = self.positions(t + span * part as f64 / WITHIN as f64)?;
-                let differences = self.drivers.iter().zip(to.iter().zip(&from));
-                let own = |driver: &Driver<'_>| self.walker.units.speeds[driver.speed];
-                most = differences.fold(most, |most, (driver, (a, b))| most.max((a - b).abs() / own(driver)));
-            }
-            most.is_finite().then_some(most)
-        };
         let mut span = last;
+        let mut rests = true;
         for _ in 0..RESTING {
-            let far = moved(span)?;
+            let Some(far) = self.moved(t, span) else { return self.between(t, last) };
+            rests &= far == 0.0;
             let ratio = if far > 0.0 { LONGEST / far } else { 2.0 };
             // Rounding of the laws.
             let fits = (1.0 - 1e-9..1.0 + 1e-9).contains(&ratio);
             let longer = ratio > 1.0 && !is_first && span >= 2.0 * last;
             if fits || longer {
-                return Some((span, far));
+                return Next::Step { span, far };
             }
             span *= if is_first { ratio.clamp(0.1, 1e3) } else { ratio.clamp(0.1, 2.0) };
             if !is_first && ratio > 1.0 {
                 span = span.min(2.0 * last);
             }
         }
-        let far = moved(span)?;
-        (far > 0.0 && far <= 1.5 * LONGEST).then_some((span, far))
+        if rests {
+            return Next::Rest;
+        }
+        match self.moved(t, span) {
+            Some(far) if far > 0.0 && far <= 1.5 * LONGEST => Next::Step { span, far },
+            _ => self.between(t, last),
+        }
+    }
+
+    /// The same by halving, for laws like `t^3`: in these a part of the step is made in a far larger part of the time, which the
+    /// search by proportion leaps over.
+    fn between(&self, t: f64, last: f64) -> Next {
+        let is_short = |span: f64| self.moved(t, span).is_some_and(|far| far <= LONGEST);
+        let (mut low, mut high) = (last, last);
+        for _ in 0..RESTING {
+            match (is_short(low), is_short(high)) {
+                (false, _) => (low, high) = (0.1 * low, low),
+                (true, true) => (low, high) = (high, 10.0 * high),
+                (true, false) => break,
+            }
+        }
+        for _ in 0..HALVINGS {
+            let middle = (low * high).sqrt();
+            if is_short(middle) { low = middle } else { high = middle }
+        }
+        match self.moved(t, low) {
+            Some(far) if (LEAST * LONGEST..=LONGEST).contains(&far) => Next::Step { span: low, far },
+            Some(0.0) => Next::Rest,
+            _ => Next::Unknown,
+        }
+    }
+
+    /// How far the fastest driver goes at most in some time from a time on [rad, own units].
+    fn moved(&self, t: f64, span: f64) -> Option<f64> {
+        let from = self.positions(t)?;
+        let mut most = 0.0_f64;
+        for part in 1..=WITHIN {
+            let to = self.positions(t + span * part as f64 / WITHIN as f64)?;
+            let differences = self.drivers.iter().zip(to.iter().zip(&from));
+            let own = |driver: &Driver<'_>| self.walker.units.speeds[driver.speed];
+            most = differences.fold(most, |most, (driver, (a, b))| most.max((a - b).abs() / own(driver)));
+        }
+        most.is_finite().then_some(most)
     }
 
     fn positions(&self, t: f64) -> Option<Vec<f64>> {
-        self.drivers.iter().map(|driver| self.position(driver, t)).collect()
+        self.drivers.iter().map(|driver| self.position(driver, t).filter(|at| at.is_finite())).collect()
     }
 
     /// The position at another time, from that of a near waypoint.

@@ -8,14 +8,13 @@ use nalgebra::DVector;
 
 use super::case::Case;
 use super::samples::{ClosedPositions, Ended, Position, STEP, Walker};
+use super::stretched::is_stuck;
 use super::subspace::{least_norm, nearly_null_space, singular_values};
 
 /// A loop that opens by more than this part of the mechanism is another mechanism, not one drawn with too few digits.
 pub const NEARLY: f64 = 1e-3;
 /// Openings below this part are rounding.
 pub const ROUNDING: f64 = 1e-10;
-/// Positions within this part of a step from the start are the start: what closes only there does not move.
-const AWAY: f64 = 0.2;
 /// Kept rows whose weakest direction falls below this part of the strongest pass a singular position nearby ...
 const WEAK: f64 = 0.1;
 /// ... as near as projection follows weak directions.
@@ -34,12 +33,6 @@ pub struct Opening {
 /// The worst opening along the walk, if it is more than a run can take. `keep`: rows that the run keeps closed.
 pub fn opens(case: &Case<'_>, positions: &ClosedPositions, keep: &[bool]) -> Option<Opening> {
     let walker = case.walker();
-    let stuck = || {
-        let start = &positions.positions[0];
-        let free = start.freedoms(&walker.joint_speeds).ncols() > 0;
-        let near = |position: &Position| distance(case, &start.q, &position.q) < AWAY * STEP;
-        free && positions.positions.iter().all(near)
-    };
     let along = positions.open.iter().cloned();
     let dropped = keep.contains(&false);
     let kept_only = positions.positions.iter().filter(|_| dropped);
@@ -48,7 +41,9 @@ pub fn opens(case: &Case<'_>, positions: &ClosedPositions, keep: &[bool]) -> Opt
     let worst = residuals.filter_map(|residual| opening(case, positions, &residual));
     let worst = worst.filter(|(part, _)| (CLOSED_AT_START..NEARLY).contains(part));
     let worst = worst.max_by(|(a, _), (b, _)| a.total_cmp(b)).map(|(_, opening)| opening);
-    worst.or_else(|| if stuck() { beside(case, positions, CLOSED_AT_START..f64::INFINITY) } else { None })
+    worst.or_else(|| {
+        if is_stuck(case, positions) { beside(case, positions, CLOSED_AT_START..f64::INFINITY) } else { None }
+    })
 }
 
 /// By how much the loops open where they would move, if lengths and axes were a little different: of a structure that is
@@ -114,11 +109,4 @@ fn with_kept_rows_closed(walker: &Walker<'_>, position: &Position, keep: &[bool]
     let growth = if weak < WEAK { (weak / WEAKEST).max(1.0) } else { 1.0 };
     // The least opening is that of the position; what the step adds grows.
     Some(residual + (opened - residual) * growth)
-}
-
-/// Largest difference of two positions [rad, own units].
-fn distance(case: &Case<'_>, from: &[f64], to: &[f64]) -> f64 {
-    let unit = |unit: &str| if unit == "m" { case.units.length } else { 1.0 };
-    let differences = from.iter().zip(to).zip(&*case.description.coordinates);
-    differences.map(|((a, b), info)| (a - b).abs() / unit(&info.unit)).fold(0.0, f64::max)
 }

@@ -9,17 +9,17 @@ use crate::model::{Joint, Mechanism, Start};
 
 use super::analysis::Analysis;
 use super::assemblies::{Coordinate, as_guesses};
-use super::exactness::{NEARLY, Opening, ROUNDING};
-use super::rank::{Lost, Rows};
+use super::exactness::Opening;
+use super::rank::Lost;
 
 const CLOSE: &str = "check lengths and points, or start Newton nearer to the wanted assembly with [assembly]";
 
-fn named<'a>(mechanism: &'a Mechanism, name: &str) -> Option<&'a Joint> {
+pub(super) fn named<'a>(mechanism: &'a Mechanism, name: &str) -> Option<&'a Joint> {
     mechanism.joint_of_contact(name)
 }
 
 /// `R1`, `R2` and so on, in backticks.
-fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+pub(super) fn quoted<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.into_iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
@@ -53,6 +53,17 @@ pub fn cannot_close(mechanism: &Mechanism, error: &AssemblyError) -> Diagnostic 
                 names.join(", ")
             );
             start_impossible(mechanism, names, message)
+        }
+        AssemblyError::TurnedRound { joint } => {
+            let message = format!(
+                "the loop through `{joint}` closes only with that joint turned half round: its axis reversed, or its parts upside \
+                 down"
+            );
+            let diagnostic = Diagnostic::new(Code::LoopDoesNotClose, message).help(
+                "start nearer to the wanted assembly with [assembly]; values there, in [initial], or of drivers at t = 0 may be \
+                 half a turn off",
+            );
+            at_joint(diagnostic, mechanism, joint, "turned half round")
         }
         AssemblyError::HeldSpeeds { names, joint, .. } => {
             let message = format!(
@@ -106,7 +117,7 @@ pub fn opens_along_motion(mechanism: &Mechanism, description: &Description, open
     at_joint(diagnostic, mechanism, &row.joint, &format!("worst: {}", row.meaning))
 }
 
-fn at_joint(diagnostic: Diagnostic, mechanism: &Mechanism, joint: &str, text: &str) -> Diagnostic {
+pub(super) fn at_joint(diagnostic: Diagnostic, mechanism: &Mechanism, joint: &str, text: &str) -> Diagnostic {
     diagnostic.at_each(named(mechanism, joint).map(|joint| joint.span), text)
 }
 
@@ -123,10 +134,14 @@ fn start_impossible(mechanism: &Mechanism, names: &[String], message: String) ->
     let diagnostic = Diagnostic::new(Code::StartImpossible, message)
         .at_each(driven.map(|joint| joint.span), "driven from there")
         .at_each(demanded(mechanism, names).map(|start| start.span), "demanded here");
-    diagnostic.help(
-        "demand no more start values than there are freedoms without a driver, and give the others in [assembly] \
-         as guesses",
-    )
+    let starts = mechanism.starts.iter().filter(|start| start.held && start.position.is_some());
+    diagnostic.help(match starts.count() + mechanism.drives().count() {
+        1 => "the loops do not let it get there: demand what they reach, or change lengths; in [assembly] it is a guess",
+        _ => {
+            "demand no more start values than there are freedoms without a driver, and give the others in [assembly] as \
+             guesses"
+        }
+    })
 }
 
 /// Demanded start values among `names`.
@@ -257,34 +272,6 @@ pub fn with_closed_clearances(error: Diagnostic) -> Diagnostic {
     error.help("this holds with the clearances closed: play is no freedom that could be driven")
 }
 
-/// No freedom at all.
-pub fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
-    let names = quoted(mechanism.joints.iter().map(|joint| joint.name.as_str()));
-    let message = format!(
-        "nothing can move: {} speeds are held by {} independent constraint rows",
-        analysis.speeds, analysis.independent_rows
-    );
-    let cut = analysis.cuts.first().and_then(|cut| named(mechanism, cut));
-    Diagnostic::new(Code::Locked, message)
-        .at_each(cut.map(|joint| joint.span), "the loop closed here is rigid")
-        .help(format!(
-            "the joints {names} form a structure; free one of them (for instance make a revolute spherical) \
-             or correct axes that should be parallel or meet in a point"
-        ))
-}
-
-/// Some joints can never move, although others do or links bend.
-pub fn rigid_part(mechanism: &Mechanism, joints: &[JointId]) -> Diagnostic {
-    let names = quoted(joints.iter().map(|joint| mechanism.joint(*joint).name.as_str()));
-    let others = match joints.len() < mechanism.joints.len() {
-        true => "though other joints do",
-        false => "and there are no other joints: links can only bend",
-    };
-    Diagnostic::new(Code::RigidPart, format!("the loops let {names} never move, {others}"))
-        .help("make them `fixed` if that is meant; otherwise free one, or correct lengths and axes")
-        .at_each(joints.iter().map(|joint| mechanism.joint(*joint).span), "cannot move")
-}
-
 /// Constants of the equations that overflow, shown where the number that is farthest from 1 in size is written.
 pub fn beyond_numbers(mechanism: &Mechanism) -> Diagnostic {
     let values = mechanism.parameter_values();
@@ -314,72 +301,4 @@ pub fn abrupt_driver(mechanism: &Mechanism, joint: &str, what: &str) -> Diagnost
     let diagnostic = Diagnostic::new(Code::StartNotFinite, message)
         .help("let the law set out smoothly, for instance with `t^2` in place of `sqrt(t)`");
     at_joint(diagnostic, mechanism, joint, "driven here")
-}
-
-/// Drivers must prescribe independent freedoms. `misses`: by which part of the mechanism the loops stay open when the driver of
-/// this speed goes on by a small step.
-pub fn conflicts(
-    mechanism: &Mechanism,
-    drivers: &[(JointId, usize)],
-    rows: &Rows,
-    misses: &dyn Fn(usize) -> f64,
-) -> Vec<Diagnostic> {
-    let mut errors = Vec::new();
-    for group in rows.driver_conflicts() {
-        let joints: Vec<&Joint> = group.iter().map(|driver| mechanism.joint(drivers[*driver].0)).collect();
-        let names = quoted(joints.iter().map(|joint| joint.name.as_str()));
-        let (code, message) = if joints.len() == 1 {
-            (Code::DriverOnDependentCoordinate, format!("the loops leave joint {names} no motion to drive"))
-        } else {
-            let message =
-                format!("the loops couple the driven joints {names}: they cannot all be prescribed");
-            (Code::DriversInConflict, message)
-        };
-        let mut error = Diagnostic::new(code, message)
-            .help("keep as many drivers as there are freedoms to drive")
-            .at_each(joints.iter().map(|joint| joint.span), "driven here");
-        let nearly = group.first().filter(|_| group.len() == 1).map(|driver| misses(drivers[*driver].1));
-        // What closes but for rounding is no matter of digits.
-        if let Some(part) = nearly.filter(|part| (ROUNDING..NEARLY).contains(part)) {
-            error = error.help(format!(
-                "its loop misses that motion by {part:.1e} of its size only: correct lengths and axes, or give them more \
-                 digits; {CLOSED_AT_START:e} is close enough"
-            ));
-        }
-        errors.push(error);
-    }
-    errors
-}
-
-#[cfg(test)]
-mod tests {
-    use nalgebra::DVector;
-
-    use super::super::samples::{ClosedPositions, Position};
-    use super::*;
-    use crate::input::Reach;
-    use crate::model::{Overrides, resolve};
-    use crate::source::SourceFile;
-    use crate::sparse_rows::SparseRows;
-    use crate::spec;
-
-    #[test]
-    fn a_loop_that_misses_by_nothing_is_not_told_to_be_made_more_exact() {
-        let text = "spec = 1\nname = \"bar\"\ngravity = [0, 0, 0]\n[points]\nO = [0, 0, 0]\nA = [\"1 m\", 0, 0]\n[bodies]\n\
-                    bar = { rod = [\"O\", \"A\"], radius = \"8 mm\", mass = \"1 kg\" }\n[joints]\n\
-                    R = { revolute = [\"ground\", \"bar\"], at = \"O\", axis = [0, 0, 1], drive = \"1 rad/s*t\" }\n";
-        let source = SourceFile { name: "bar.toml".to_owned(), text: text.to_owned() };
-        let (mechanism, _) =
-            resolve(&spec::parse(&source).unwrap(), &Overrides::default(), Reach::Below).unwrap();
-        let drivers = [(mechanism.drives().next().unwrap().0, 0)];
-        // One row that holds the driven speed.
-        let held = Position::new(Vec::new(), DVector::zeros(1), SparseRows::units(1, &[0]));
-        let positions = ClosedPositions { positions: vec![held], arm: 1.0, open: Vec::new() };
-        let helps = |part: f64| {
-            let errors = conflicts(&mechanism, &drivers, &Rows::new(&positions, vec![0]), &|_| part);
-            assert_eq!(errors.len(), 1);
-            errors[0].help.iter().any(|help| help.contains("misses that motion"))
-        };
-        assert_eq!([0.0, 1e-16, 1e-9, 1e-5, 0.1].map(helps), [false, false, true, true, false]);
-    }
 }

@@ -14,6 +14,7 @@ mod failures;
 mod friction;
 mod idle;
 mod immobile;
+mod immovable;
 mod own_units;
 mod plausible;
 mod prescribed;
@@ -23,6 +24,7 @@ mod resonance;
 mod samples;
 mod start;
 mod stopped;
+mod stretched;
 mod subspace;
 mod turn;
 mod without_play;
@@ -84,12 +86,16 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         Err(error) => return fail(vec![failures::cannot_close(mechanism, &error)]),
     };
     let rows = Rows::new(&positions, drivers.iter().map(|(_, speed)| *speed).collect());
+    if let Some(row) = stretched::stretched(case, &positions) {
+        return fail(vec![immovable::stretched(mechanism, &description.rows[row].joint)]);
+    }
     let keep = rows.independent();
     analysis.independent_rows = keep.iter().filter(|kept| **kept).count();
     let joint_speeds = case.linkage.joint_speeds();
     analysis.modes = analysis.speeds - joint_speeds.len();
     let of_joints =
         if analysis.modes == 0 { rows.rank() } else { Rows::of_speeds(&positions, &joint_speeds).rank() };
+    analysis.unmoved_rows = rows.unmoved();
     analysis.mobility = joint_speeds.len() - of_joints;
     for (info, _) in description.rows.iter().zip(&keep).filter(|(_, kept)| !**kept) {
         analysis.redundant.push(Redundant {
@@ -99,9 +105,10 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
         });
     }
     let misses = |speed| case.walker().driver_misses(&positions.positions[0], speed, &[]);
-    let mut errors = failures::conflicts(mechanism, &drivers, &rows, &misses);
+    let rigid = || immobile::rigid_joints(case, &positions);
+    let mut errors = immovable::conflicts(mechanism, &drivers, &rows, (&misses, &rigid));
     if analysis.speeds == analysis.independent_rows {
-        errors.insert(0, failures::locked(mechanism, &analysis));
+        errors.insert(0, immovable::locked(mechanism, &analysis));
     }
     if errors.is_empty() {
         errors.extend(start_fault(case, &analysis, (&rows, &positions), refusal.as_ref()));
@@ -126,9 +133,9 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     if !errors.is_empty() {
         return fail(errors);
     }
-    let rigid = immobile::rigid_joints(case, &positions);
+    let rigid = rigid();
     let mut warnings =
-        if rigid.is_empty() { Vec::new() } else { vec![failures::rigid_part(mechanism, &rigid)] };
+        if rigid.is_empty() { Vec::new() } else { vec![immovable::rigid_part(mechanism, &rigid)] };
     warnings.extend(resonance::near_resonance(mechanism));
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);

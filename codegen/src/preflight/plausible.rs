@@ -204,9 +204,9 @@ fn is_odd(value: f64, usual: [f64; 2]) -> bool {
 }
 
 fn bearing(mechanism: &Mechanism, joint: &Joint, clearance: &Clearance) -> Vec<Diagnostic> {
-    let (laws, span, name) = (&clearance.laws, clearance.radial.span, &joint.name);
+    let (laws, places, name) = (&clearance.laws, clearance.places, &joint.name);
     let mut remarks = Vec::new();
-    let mut remark = |code, message, help| remarks.push(odd(code, span, message, help));
+    let mut remark = |code, span, message, help| remarks.push(odd(code, span, message, help));
     let radial = clearance.radial.value(&mechanism.parameter_values()).unwrap_or(0.0);
     let share = radial / laws.journal_radius;
     if share > WIDE {
@@ -217,26 +217,38 @@ fn bearing(mechanism: &Mechanism, joint: &Joint, clearance: &Clearance) -> Vec<D
         );
         remark(
             Code::OddBearing,
+            clearance.radial.span,
             message,
             "usual are 0.01 to 1 %; the clearance is the difference of the radii",
         );
     }
     if is_odd(laws.modulus, MODULI) {
         let message = format!("the contact modulus of `{name}` is {}", with_unit(laws.modulus, "Pa"));
-        remark(Code::OddMaterial, message, "steel on steel has 115 GPa, a polymer on steel 1 to 4 GPa");
+        remark(
+            Code::OddMaterial,
+            places.modulus,
+            message,
+            "steel on steel has 115 GPa, a polymer on steel 1 to 4 GPa",
+        );
     }
     let Some(wear) = &laws.wear else { return remarks };
     if is_odd(wear.hardness, HARDNESSES) {
         let message = format!("the hardness at `{name}` is {}", with_unit(wear.hardness, "Pa"));
         remark(
             Code::OddMaterial,
+            places.hardness,
             message,
             "bearing steel has 7 GPa, bronze 1 GPa: 9.81 MPa times the Brinell number",
         );
     }
     if wear.coefficient > WEAR_COEFFICIENT {
         let message = format!("the wear coefficient k at `{name}` is {}", shown(wear.coefficient));
-        remark(Code::OddMaterial, message, "k has no dimension: 1e-9 well lubricated, 1e-4 to 1e-2 dry");
+        remark(
+            Code::OddMaterial,
+            places.coefficient,
+            message,
+            "k has no dimension: 1e-9 well lubricated, 1e-4 to 1e-2 dry",
+        );
     }
     if wear.threshold > DEEP * laws.journal_radius {
         let message = format!(
@@ -245,7 +257,12 @@ fn bearing(mechanism: &Mechanism, joint: &Joint, clearance: &Clearance) -> Vec<D
             shown(100.0 * wear.threshold / laws.journal_radius),
             with_unit(laws.journal_radius, "m")
         );
-        remark(Code::OddBearing, message, "a bearing has failed long before; check the unit");
+        remark(
+            Code::OddBearing,
+            places.threshold,
+            message,
+            "a bearing has failed long before; check the unit",
+        );
     }
     remarks
 }

@@ -99,6 +99,15 @@ impl Rows {
         self.strengths().iter().map(|strength| strength.rank).max().unwrap_or(0)
     }
 
+    /// How many combinations of rows no motion changes in any position: the same ones everywhere.
+    pub fn unmoved(&self) -> usize {
+        let Some(first) = self.samples.first() else { return 0 };
+        // Of all positions side by side.
+        let motions = self.samples.iter().map(SparseRows::transpose);
+        let all = motions.reduce(|above, below| above.stack(&below));
+        first.nrows() - all.map_or(0, |all| rank(&all))
+    }
+
     /// Greedy choice: the row that adds most to those kept, judged where it adds least among the positions of
     /// full rank; so the kept rows stay independent along the motion.
     pub fn independent(&self) -> Vec<bool> {

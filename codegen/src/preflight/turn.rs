@@ -3,6 +3,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Mechanism;
+use crate::source::Span;
 
 use super::course::{Course, Driver, Waypoint};
 use super::plausible::with_unit;
@@ -55,7 +56,8 @@ pub fn turn_remark(mechanism: &Mechanism, course: &Course<'_>) -> Option<Diagnos
         };
         return Some(Diagnostic::new(Code::NoFullTurn, message).at_each(spans, label).help(help));
     }
-    let singular = if course.determined { singular(course)? } else { return None };
+    let singular = if course.determined { singular(course) } else { None };
+    let Some(singular) = singular else { return course.is_lost.then(|| lost(last, spans)) };
     let passes = match course.crank() {
         Some(crank) => format!(
             "on its turn `{}` passes a singular position at {}",
@@ -73,6 +75,17 @@ pub fn turn_remark(mechanism: &Mechanism, course: &Course<'_>) -> Option<Diagnos
         "motion and energy stay right there, peaks of forces depend on where steps fall; change a length, or add a \
          link that holds the loop there",
     ))
+}
+
+/// Drivers that could not be followed to their end.
+fn lost(last: f64, laws: impl Iterator<Item = Span>) -> Diagnostic {
+    let message = format!(
+        "the motion could be looked at up to about t = {} only: there the laws of the drivers jump, or are no numbers",
+        with_unit(last, "s")
+    );
+    Diagnostic::new(Code::NoFullTurn, message)
+        .at_each(laws, "driven here")
+        .help("let laws go on smoothly, or end runs before then; what the loops do later is not checked")
 }
 
 fn degrees(angle: f64) -> String {

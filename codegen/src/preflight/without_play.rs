@@ -12,7 +12,7 @@ use super::case::Case;
 use super::course::Course;
 use super::rank::{Lost, Rows};
 use super::samples::ClosedPositions;
-use super::{failures, idle, turn};
+use super::{failures, idle, immobile, immovable, turn};
 
 /// Checks drivers, freedoms and loops of the case of [`Mechanism::with_clearances_closed`].
 ///
@@ -53,7 +53,8 @@ pub fn check_without_play(
             <= play
     };
     if conflicts.iter().any(|group| !follows(group)) {
-        return fail(failures::conflicts(mechanism, &drivers, &rows, &|_| f64::INFINITY));
+        let rigid = || immobile::rigid_joints(case, &positions);
+        return fail(immovable::conflicts(mechanism, &drivers, &rows, (&|_| f64::INFINITY, &rigid)));
     }
     if !conflicts.is_empty() {
         return Ok(by_clearance("without them its drivers would be blocked"));
@@ -69,9 +70,10 @@ pub fn check_without_play(
     if rank == sizes.all_speeds {
         return Ok(by_clearance("without them it is a structure"));
     }
-    let redundant = |all: usize, independent: usize| all - independent;
-    let more = redundant(sizes.all_rows, rank)
-        .saturating_sub(redundant(with_play.constraint_rows, with_play.independent_rows));
+    // What holds a plane linkage in its plane is redundant whatever its lengths are; play of a journal that tilts makes it none.
+    let redundant = |all: usize, independent: usize, unmoved: usize| all - independent - unmoved;
+    let of_play = redundant(with_play.constraint_rows, with_play.independent_rows, with_play.unmoved_rows);
+    let more = redundant(sizes.all_rows, rank, rows.unmoved()).saturating_sub(of_play);
     Ok(match more {
         0 => turn_remarks(case, &positions),
         1 => by_clearance(

@@ -1,5 +1,6 @@
 //! Closed loops first, then speeds that keep them closed. In: a mechanism's start values. Out: a [`State`].
 
+use super::half_turns::as_drawn;
 use super::held::conflicts;
 use super::newton::Newton;
 use super::offset::free_offsets;
@@ -55,7 +56,7 @@ pub fn close_loops(
 ) -> Result<Vec<f64>, AssemblyError> {
     let still = vec![0.0; evaluator.sizes().speeds];
     let offsets = free_offsets(evaluator, t, guess);
-    Newton::new(evaluator, t, guess, &still, held).centred(offsets).run()
+    as_drawn(Newton::new(evaluator, t, guess, &still, held).centred(offsets))
 }
 
 fn close(
@@ -69,16 +70,16 @@ fn close(
     // As if there were no clearances: journals that may be anywhere on the way leave the loops to close themselves wherever it is
     // nearest, on another branch or turns away.
     if !offsets.is_empty()
-        && let Ok(q) = Newton::new(evaluator, t, guess, wish, &held).centred(offsets).run()
+        && let Ok(q) = as_drawn(Newton::new(evaluator, t, guess, wish, &held).centred(offsets))
     {
         return Ok(q);
     }
-    let failure = match Newton::new(evaluator, t, guess, wish, &held).run() {
+    let failure = match as_drawn(Newton::new(evaluator, t, guess, wish, &held)) {
         Ok(q) => return Ok(q),
         Err(failure) => failure,
     };
     if held.contains(&true)
-        && let Ok(free) = Newton::new(evaluator, t, guess, wish, &vec![false; held.len()]).run()
+        && let Ok(free) = as_drawn(Newton::new(evaluator, t, guess, wish, &vec![false; held.len()]))
     {
         // Far above the accuracy of assembly, far below what a user would call different.
         let names = conflicts(&evaluator.description().coordinates, guess, &free, |_| 1e-8);

@@ -6,6 +6,7 @@
 //! it and the branch is the guess's; speeds by one minimum-norm solve from the wish.
 
 mod consistent;
+mod half_turns;
 mod held;
 mod newton;
 mod offset;

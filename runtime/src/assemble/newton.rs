@@ -67,7 +67,29 @@ impl<'e, 'a> Newton<'e, 'a> {
         Self { centred: offsets, ..self }
     }
 
-    pub(super) fn run(mut self) -> Result<Vec<f64>, AssemblyError> {
+    /// The mechanism.
+    pub(super) fn evaluator(&mut self) -> &mut Evaluator<'a> {
+        self.evaluator
+    }
+
+    /// When [s].
+    pub(super) fn time(&self) -> f64 {
+        self.t
+    }
+
+    /// What makes pure numbers of rows and speeds.
+    pub(super) fn units(&self) -> &Units {
+        &self.units
+    }
+
+    /// The next attempt begins a step away from a position.
+    pub(super) fn set_out(&mut self, q: &[f64], step: &[f64]) {
+        self.guess = self.moved(q, step, 1.0);
+        self.iterations = 0;
+    }
+
+    /// Closes the loops from the guess.
+    pub(super) fn run(&mut self) -> Result<Vec<f64>, AssemblyError> {
         let mut q = self.guess.clone();
         let mut residual = self.residuals(&q);
         if let Some(row) = residual.iter().position(|x| !x.is_finite()) {
@@ -127,13 +149,13 @@ impl<'e, 'a> Newton<'e, 'a> {
         delta
     }
 
-    fn least_squares(
-        &mut self,
-        q: &[f64],
-        mut jacobian: Vec<f64>,
-        residual: &[f64],
-        tolerance: f64,
-    ) -> Vec<f64> {
+    /// The shortest step of what is not held that changes rows with this Jacobian by as much as is wanted, pure numbers.
+    pub(super) fn shortest(&self, q: &[f64], jacobian: Vec<f64>, wanted: &[f64]) -> Vec<f64> {
+        let residual: Vec<f64> = wanted.iter().map(|x| -x).collect();
+        self.least_squares(q, jacobian, &residual, TOLERANCES[0])
+    }
+
+    fn least_squares(&self, q: &[f64], mut jacobian: Vec<f64>, residual: &[f64], tolerance: f64) -> Vec<f64> {
         let n = self.columns.len();
         let mut delta = vec![0.0; n];
         if n == 0 {
@@ -163,7 +185,7 @@ impl<'e, 'a> Newton<'e, 'a> {
     }
 
     /// Jacobian of all rows: exact for kept ones, central differences for dropped ones.
-    fn full_jacobian(&mut self, q: &[f64]) -> Vec<f64> {
+    pub(super) fn full_jacobian(&mut self, q: &[f64]) -> Vec<f64> {
         let (n, all) = (self.columns.len(), self.evaluator.sizes().all_rows);
         let mut jacobian = vec![0.0; all * n];
         if self.evaluator.kept().len() < all {

@@ -19,7 +19,7 @@ C = { coupler = ["300 mm", "200 mm", 0], rocker = ["300 mm", "250 mm", 0] }"#,
         code: Code::Locked,
         file: File::Swing,
         text: "Three bars that are pinned to a triangle are a frame. Take a joint away, or put one in that \
-               gives way.",
+               gives way. Links that are stretched to their limit cannot move either: lengthen one.",
         wrong: r#"[points]
 D = [0, "1 m", 0]
 

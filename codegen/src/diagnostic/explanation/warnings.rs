@@ -257,7 +257,8 @@ hook = { fixed = ["ram", "flap"], at = "P" }"#,
         code: Code::NoFullTurn,
         file: File::Press,
         text: "Drivers that the loops do not let go on: a crank longer than its rod cannot turn once round, a \
-               stroke can be longer than a linkage reaches. The message says when and where the motion ends.",
+               stroke can be longer than a linkage reaches. The message says when and where the motion ends, or where laws jump so \
+               that it could not be followed.",
         wrong: r#"[points]
 A = ["130 mm", 0, 0]
 P = ["200 mm", 0, 0]"#,
@@ -349,5 +350,22 @@ bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = 
 
 [joints]
 hinge = { prismatic = ["ground", "bar"], at = "O", axis = [0, 1, 0] }"#,
+    },
+    Explanation {
+        code: Code::HeldElsewhere,
+        file: File::Swing,
+        text: "A spring, a force or another element holds a point on a body that does not have it, where others do: points that \
+               are swapped, or a wrong name. The element acts where the point is drawn, on the body that it names. Where that is \
+               meant, `on` says so.",
+        wrong: r#"[points]
+P = { at = ["1 m", "-0.5 m", 0], on = "ground" }
+
+[forces]
+coil = { spring = ["ground", "bar"], at = ["A", "P"], stiffness = "2 kN/m", length = "500 mm" }"#,
+        right: r#"[points]
+P = { at = ["1 m", "-0.5 m", 0], on = "ground" }
+
+[forces]
+coil = { spring = ["ground", "bar"], at = ["P", "A"], stiffness = "2 kN/m", length = "500 mm" }"#,
     },
 ];

@@ -27,6 +27,8 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("exponent", "1.5"),
     ("count", "3"),
     ("modes", "6"),
+    // Of a flexible body, a ratio.
+    ("damping", "0.01"),
     // Of a contact, in N/m^n.
     ("stiffness", "1e9"),
     ("frequencies", "\"120 Hz\""),

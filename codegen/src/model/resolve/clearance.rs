@@ -8,7 +8,7 @@ use super::inertia;
 use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
-use crate::model::{Axis, Clearance, Ends, Formula, Joint, JointKind};
+use crate::model::{Axis, Clearance, ClearancePlaces, Ends, Formula, Joint, JointKind};
 use crate::source::Span;
 use crate::spec::{At, ClearanceSpec, Dimension, File, JointSpec, Name, Quantity};
 
@@ -27,7 +27,8 @@ impl Resolver<'_> {
     pub(super) fn add_clearance(&mut self, file: &File) {
         for (name, written) in &file.clearance.0 {
             let Some(id) = self.joint_named(name, "[clearance]") else { continue };
-            let Some(kind) = self.joint_models.get(id.index()).map(|model| model.kind) else { continue };
+            let known = self.joint_models.get(id.index()).filter(|model| !model.stands_in);
+            let Some(kind) = known.map(|model| model.kind) else { continue };
             if self.joint_models[id.index()].is_driven_ball() {
                 let message = format!(
                     "joint `{}`: a ball whose three angles are prescribed cannot have clearance",
@@ -131,7 +132,15 @@ impl Resolver<'_> {
             }
             let room = if ball || guide { 0 } else { MOST_LIVE };
             let factor = wear.and_then(|(name, wear)| self.wear_factor(name, wear, &laws, room));
-            joint.clearance = Some(Box::new(Clearance { radial, laws, journal, factor }));
+            let place = |written: Option<&Quantity>| written.map_or(radial.span, |quantity| quantity.span);
+            let wears = wear.map(|(_, wear)| &wear.value);
+            let places = ClearancePlaces {
+                modulus: place(written.value.modulus.as_ref()),
+                hardness: place(wears.and_then(|wear| wear.hardness.as_ref())),
+                coefficient: place(wears.and_then(|wear| wear.coefficient.as_ref())),
+                threshold: place(wears.and_then(|wear| wear.threshold.as_ref())),
+            };
+            joint.clearance = Some(Box::new(Clearance { radial, laws, journal, factor, places }));
         }
         for (name, _) in &file.wear.0 {
             let known = file.clearance.0.iter().any(|(other, _)| other.value == name.value);

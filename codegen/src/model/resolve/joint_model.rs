@@ -21,7 +21,7 @@ impl Resolver<'_> {
                 "write for example `revolute = [\"ground\", \"crank\"]`; kinds are {}",
                 all_kinds()
             ));
-            return JointModel::free();
+            return JointModel::stand_in();
         };
         if let Some((other, _)) = written.next() {
             let message = format!("joint `{}` is both {key} and {other}", name.value);

@@ -250,7 +250,8 @@ impl Resolver<'_> {
             Some(number) if number <= count => number.checked_sub(1),
             _ => None,
         };
-        if found.is_some() {
+        // Which coordinates a joint has whose kind is not known, nobody can say.
+        if found.is_some() || model.stands_in {
             return found;
         }
         let kind_name = model.kind.name;

@@ -21,6 +21,7 @@ mod flexible;
 mod forces;
 mod held;
 mod held_places;
+mod held_points;
 mod inertia;
 mod inputs;
 mod joint_model;
@@ -152,6 +153,9 @@ impl Resolver<'_> {
         let starts = self.resolve_starts(&file, &joints);
         let stops = self.resolve_stops(&file.stops, &joints, &starts);
         self.find_carriers(&file, &bodies, &joints, (&forces, &couplings));
+        if !self.has_errors() {
+            self.warn_held_elsewhere(&file, &bodies, &joints, &forces);
+        }
         self.resolve_flexible(&file, &mut bodies, &joints, &forces, &gravity);
         self.check_connected(&file, &joints);
         self.warn_unused(written);

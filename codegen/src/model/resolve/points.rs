@@ -141,12 +141,8 @@ impl Resolver<'_> {
             let found = body.or_else(joint).or_else(mesh);
             let held =
                 |force: &Force| force.at.iter().zip(&force.bodies).any(|end| end == (&id, &Carrier::Ground));
-            if found.is_none() && !bodies.is_empty() && !forces.iter().any(held) && !self.has_errors() {
-                let (name, span) = (point.name.clone(), point.span);
-                let message = format!("nothing says which body carries the point `{name}`: it rests");
-                self.refuse(Code::UnplacedPoint, span, message).help(format!(
-                    "write `{name} = {{ at = [...], on = \"crank\" }}` with the body that carries it, or `on = \"ground\"`"
-                ));
+            if found.is_none() && !forces.iter().any(held) && !self.has_errors() {
+                self.warn_unplaced(id, bodies, forces);
             }
             self.points[position].carrier = found.unwrap_or(Carrier::Ground);
         }

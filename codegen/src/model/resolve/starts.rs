@@ -35,6 +35,9 @@ impl Resolver<'_> {
                 }
                 let Some(id) = self.joint_named(name, &what) else { continue };
                 let joint = &joints[id.index()];
+                if joint.model.stands_in {
+                    continue;
+                }
                 let sides = [joint.parent, joint.child];
                 if joint.model.flies() && !sides.contains(&Carrier::Ground) {
                     let message = format!(

@@ -64,6 +64,9 @@ impl Resolver<'_> {
                 .help(format!("say which: `joint = \"{joint}.q1\"`, or make a stop for each"));
             return None;
         }
+        if model.stands_in {
+            return None;
+        }
         if coordinates == 0 {
             let message = format!("{what}: a {} joint has no coordinate to stop", model.kind.name);
             self.refuse(Code::NoSuchCoordinate, key.span, message)
