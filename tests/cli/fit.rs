@@ -183,6 +183,32 @@ fn bad_data_are_named_with_line_and_cure() {
     }
 }
 
+/// All at once, column by column: a file of a thousand lines is not mended a line a run.
+#[test]
+fn all_wrong_cells_of_a_file_are_told_at_once() {
+    let path = written("cells", "unit,cycles,wear_um\na,1,x\n,2,2\na,3 h,\na,4,4\n");
+    let file = path.display().to_string();
+    let answer = linkwear(&[&["fit", &file], &COLUMNS[..], &["--format", "json"]].concat());
+    fs::remove_file(path).expect("the file");
+    let errors = answer.errors();
+    let mut lines: Vec<u64> = errors.iter().filter_map(|error| error["line"].as_u64()).collect();
+    lines.sort_unstable();
+    assert_eq!(lines, [2, 3, 4, 4], "{errors:?}");
+    let broken = written("rows", "unit,cycles,wear_um\na,1\na,2,2\na,3,3,3\n");
+    let file = broken.display().to_string();
+    let answer = linkwear(&[&["fit", &file], &COLUMNS[..]].concat());
+    fs::remove_file(broken).expect("the file");
+    assert!(answer.err.contains("line 2:") && answer.err.contains("line 4:"), "{}", answer.err);
+    // What is wrong in every line is not told a hundred times.
+    let rows: String = (1..=100).map(|cycle| format!("a,{cycle},?\n")).collect();
+    let many = written("many", &format!("unit,cycles,wear_um\n{rows}"));
+    let file = many.display().to_string();
+    let answer = linkwear(&[&["fit", &file], &COLUMNS[..]].concat());
+    fs::remove_file(many).expect("the file");
+    assert_eq!(answer.err.matches("error[C0011]").count(), 20);
+    assert!(answer.err.contains("and 80 more"), "{}", answer.err);
+}
+
 #[test]
 fn a_misspelt_column_is_suggested() {
     let answer = linkwear(&["fit", HEAVY, "--unit", "unit", "--wear", "wear_mu", "--exposure", "cycles"]);
