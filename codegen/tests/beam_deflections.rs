@@ -262,3 +262,35 @@ fn shapes_that_turn_where_a_joint_does_not_are_told() {
     // The static shape of the turn at its root is there; the tip comes nearer to the wall as it sags, (w/L)².
     assert_near(cured, loaded_sag(), 1e-3);
 }
+
+/// A run by the integrator that such mechanisms have unless told otherwise.
+fn run_by_default(text: &str, seconds: f64) -> linkwear_runtime::Run {
+    let compiled = compiled(text);
+    let integrator = Integrator::adaptive(compiled.description(), None);
+    let settings = Settings::new(integrator, Span::Time(seconds), 5);
+    let (system, parameters) = (compiled.interpreter(), compiled.parameters());
+    let watch = linkwear_runtime::Watch::NONE;
+    linkwear_runtime::simulate(&system, compiled.description(), &parameters, &settings, watch)
+        .expect("it starts")
+}
+
+#[test]
+fn a_beam_that_nothing_loads_moves_in_long_steps() {
+    let ends = r#"["O", "A"]"#;
+    let turned = "[joints]\nF = { free = [\"ground\", \"b\"], at = \"O\" }\n\
+                  [forces]\nq = { torque = \"b\", components = [0, 0, \"0.1 N m\"] }";
+    for (flexible, rest) in [
+        ("modes = 4", "[joints]\nR = { prismatic = [\"ground\", \"b\"], at = \"O\", axis = [0, 0, 1] }"),
+        ("modes = 2", "[joints]\nF = { free = [\"ground\", \"b\"], at = \"O\" }"),
+        // By the mean axes a torque turns all of it alike.
+        ("modes = 6, held = \"free\"", turned),
+    ] {
+        let text = beam(ends, flexible, rest).replace("damping = 3", "damping = 0.01");
+        let run = run_by_default(&text, 1.0);
+        assert_eq!(run.stopped, None, "{rest}");
+        // Tens and a thousand; by rounding they were hundreds of thousands.
+        assert!(run.statistics.steps < 5000, "{rest}: {}", run.statistics.steps);
+        let fallen = at_end(&run, "b.modal_energy");
+        assert!(fallen.abs() < 1e-3, "{rest}: {fallen}");
+    }
+}

@@ -10,6 +10,10 @@ const DIFFERENCE: f64 = 1e-6;
 /// links are damped it rings for some fifty vibrations, over which errors of the steps add up. What bends between its joints without
 /// moving them only adds its inertia.
 const IN_LOOPS: f64 = 0.05;
+/// Part of the largest acceleration or squared speed, in their units, that counts as a load at least. Where nothing loads the modes, as of a
+/// body that falls, their accelerations are rounding of terms of that size (1e-15 of them): steps that go by it make no progress. A hundred
+/// times that is as little beside a load as the tightest tolerance of these runs is beside 1; real loads are larger.
+const LEAST_LOAD: f64 = 1e-6;
 /// Columns of the loops' rows below this part of the largest entry are rounding.
 const NOTHING: f64 = 1e-12;
 
@@ -55,12 +59,17 @@ impl ModalSizes {
     }
 
     /// Learns from a state that counts; whether anything changed.
-    pub(super) fn note(&mut self, q: &[f64], accelerations: &[f64]) -> bool {
+    pub(super) fn note(&mut self, (q, v): (&[f64], &[f64]), accelerations: &[f64]) -> bool {
+        if self.modes.is_empty() {
+            return false;
+        }
         let loads = self.modes.iter().map(|mode| {
             let held = mode.stiffness * q[mode.coordinate];
             held.abs().max(accelerations[mode.speed].abs())
         });
-        let load = loads.fold(self.load, f64::max);
+        let speed = largest(v);
+        let least = LEAST_LOAD * largest(accelerations).max(speed * speed);
+        let load = loads.fold(self.load.max(least), f64::max);
         let more = load > self.load;
         self.load = load;
         more
