@@ -226,6 +226,8 @@ codes! {
     FrictionNotUnique = "W0121",
     /// A joint keeps a section of a flexible link from turning, and its shapes do not.
     HeldAsFree = "W0122",
+    /// A link of linear shapes that turns fast beside its first frequency.
+    FastForOrder1 = "W0123",
 }
 
 impl Code {
