@@ -162,6 +162,8 @@ impl Resolver<'_> {
             stations.push(Station { name: label, node: data.nodes.len(), stress });
             data.nodes.push(node);
         }
+        let modulus = input.segments.first().map(|segment| segment.material.youngs_modulus);
+        let young = modulus.zip(spec.value.young.as_ref().map(|written| written.span));
         let truncated = beam.truncated();
         let left_out = [
             ("bending along y", truncated.y),
@@ -175,6 +177,7 @@ impl Resolver<'_> {
             nodes,
             stations,
             start: vec![[0.0; 2]; data.modes.len()],
+            young,
             left_out: left_out
                 .map(|(name, frequency)| LeftOut {
                     name: name.to_owned(),

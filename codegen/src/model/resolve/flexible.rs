@@ -197,7 +197,7 @@ impl Resolver<'_> {
             .filter(looked_at)
             .map(|node| Station { name: data.nodes[node].name.clone(), node, stress: None })
             .collect();
-        Some(Flexible { axes, origin, nodes, stations, start, left_out: Vec::new(), data })
+        Some(Flexible { axes, origin, nodes, stations, start, young: None, left_out: Vec::new(), data })
     }
 
     /// Keys of a beam that mean nothing beside modal data.
