@@ -294,3 +294,31 @@ fn a_beam_that_nothing_loads_moves_in_long_steps() {
         assert!(fallen.abs() < 1e-3, "{rest}: {fallen}");
     }
 }
+
+#[test]
+fn a_link_that_bends_beyond_what_linear_shapes_are_good_for_is_told_and_ends() {
+    let spun = |hertz: f64, order: u32| {
+        let flexible = format!("modes = 6, order = {order}");
+        let rest = format!(
+            "[joints]\nh = {{ revolute = [\"ground\", \"b\"], at = \"O\", axis = [0, 1, 0], drive = \"2*pi*{hertz} Hz*t\" }}"
+        );
+        beam(r#"["O", "A"]"#, &flexible, &rest).replace("damping = 3", "damping = 0").replace("0.5 m", "1 m")
+    };
+    let told = |hertz: f64, order: u32| {
+        let text = spun(hertz, order);
+        let said = compiled(&text).warnings.iter().any(|warning| warning.code.as_str() == "W0123");
+        let run = run_by_default(&text, 1.0);
+        let bends =
+            |one: &linkwear_runtime::RunWarning| matches!(one, linkwear_runtime::RunWarning::BentFar { .. });
+        let is_over = run
+            .stopped
+            .as_ref()
+            .is_some_and(|error| error.to_string().contains("the flexible body `b` bends by"));
+        (said, run.warnings.iter().any(bends), is_over)
+    };
+    // Its first frequency is 7.2 Hz, at 5 Hz one of 5.2 is left: the weight that turns about it then meets resonance.
+    assert_eq!(told(1.0, 1), (false, false, false));
+    assert_eq!(told(5.0, 1), (true, true, false));
+    assert_eq!(told(10.0, 1).2, true);
+    assert_eq!(told(10.0, 2), (false, false, false));
+}
