@@ -231,7 +231,16 @@ impl Resolver<'_> {
             let apart = |node: &crate::flexible::Node| inertia::distance(node.position, local);
             let nearest = (0..data.nodes.len())
                 .min_by(|a, b| apart(&data.nodes[*a]).total_cmp(&apart(&data.nodes[*b])));
-            let Some(node) = nearest else { continue };
+            let Some(node) = nearest else {
+                let point = &self.points[own.point.index()];
+                let message = format!(
+                    "the flexible body `{}` has no node at `{}`: its modal data have no nodes at all",
+                    name.value, point.name
+                );
+                self.refuse(Code::NoNodeHere, point.span, message)
+                    .help("add a `[[node]]` to the modal data for every point of the body that is used");
+                continue;
+            };
             if apart(&data.nodes[node]) <= NODE_DISTANCE * size.sqrt() {
                 nodes.push((own.point, node));
                 continue;
