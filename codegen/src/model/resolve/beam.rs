@@ -66,14 +66,19 @@ impl Resolver<'_> {
         let [start, end] = ends.map(|point| self.fixed_position(name, point, carrier));
         let x = inertia::unit(inertia::between(start, end))?;
         let given = spec.value.section.as_ref().and_then(|section| section.value.y_axis.as_ref());
+        let drawn = spec.value.drawn;
+        let chosen = || {
+            let hinges: Vec<_> = hinges(carrier, joints).into_iter().map(|axis| drawn.before(axis)).collect();
+            section_axes(drawn.before(x), &hinges).map(|axis| drawn.after(axis))
+        };
         let along = match (&body.inertia, given) {
             (_, Some(axis)) => self.direction(axis, &place("y_axis", "body", name)),
             (Inertia::Box { width_axis, .. }, None) => Some(*width_axis),
-            _ => None,
+            _ => drawn.is_turned().then(|| chosen()[1]),
         };
         let frame = match along.and_then(|y| inertia::unit(inertia::perpendicular_part(y, x))) {
             Some(y) => [x, y, inertia::cross(x, y)],
-            None => section_axes(x, &hinges(carrier, joints)),
+            None => chosen(),
         };
         Some(Axis { origin: ends[0], start, frame, length: inertia::distance(start, end) })
     }
