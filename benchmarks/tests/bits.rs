@@ -7,7 +7,7 @@ mod random;
 use linkwear::mechanisms::{SHIPPED, Shipped};
 use linkwear::native::{Lanes, Native, Refusal};
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
-use linkwear_runtime::{Entry, System};
+use linkwear_runtime::{Description, Entry, System};
 use random::Random;
 
 /// All that are compiled in, here or in linkwear itself.
@@ -113,7 +113,10 @@ fn eight_states_side_by_side_have_the_bits_of_each_alone() {
 #[test]
 fn compiled_code_describes_itself_as_the_generator_does() {
     for shipped in all() {
-        assert_eq!((shipped.description)(), compiled(shipped.name).description());
+        // Tables of generated code do not say how far bodies may bend.
+        let expected =
+            Description { bends: Vec::new().into(), ..compiled(shipped.name).description().clone() };
+        assert_eq!((shipped.description)(), &expected);
     }
 }
 

@@ -262,3 +262,63 @@ fn shapes_that_turn_where_a_joint_does_not_are_told() {
     // The static shape of the turn at its root is there; the tip comes nearer to the wall as it sags, (w/L)².
     assert_near(cured, loaded_sag(), 1e-3);
 }
+
+/// A run by the integrator that such mechanisms have unless told otherwise.
+fn run_by_default(text: &str, seconds: f64) -> linkwear_runtime::Run {
+    let compiled = compiled(text);
+    let integrator = Integrator::adaptive(compiled.description(), None);
+    let settings = Settings::new(integrator, Span::Time(seconds), 5);
+    let (system, parameters) = (compiled.interpreter(), compiled.parameters());
+    let watch = linkwear_runtime::Watch::NONE;
+    linkwear_runtime::simulate(&system, compiled.description(), &parameters, &settings, watch)
+        .expect("it starts")
+}
+
+#[test]
+fn a_beam_that_nothing_loads_moves_in_long_steps() {
+    let ends = r#"["O", "A"]"#;
+    let turned = "[joints]\nF = { free = [\"ground\", \"b\"], at = \"O\" }\n\
+                  [forces]\nq = { torque = \"b\", components = [0, 0, \"0.1 N m\"] }";
+    for (flexible, rest) in [
+        ("modes = 4", "[joints]\nR = { prismatic = [\"ground\", \"b\"], at = \"O\", axis = [0, 0, 1] }"),
+        ("modes = 2", "[joints]\nF = { free = [\"ground\", \"b\"], at = \"O\" }"),
+        // By the mean axes a torque turns all of it alike.
+        ("modes = 6, held = \"free\"", turned),
+    ] {
+        let text = beam(ends, flexible, rest).replace("damping = 3", "damping = 0.01");
+        let run = run_by_default(&text, 1.0);
+        assert_eq!(run.stopped, None, "{rest}");
+        // Tens and a thousand; by rounding they were hundreds of thousands.
+        assert!(run.statistics.steps < 5000, "{rest}: {}", run.statistics.steps);
+        let fallen = at_end(&run, "b.modal_energy");
+        assert!(fallen.abs() < 1e-3, "{rest}: {fallen}");
+    }
+}
+
+#[test]
+fn a_link_that_bends_beyond_what_linear_shapes_are_good_for_is_told_and_ends() {
+    let spun = |hertz: f64, order: u32| {
+        let flexible = format!("modes = 6, order = {order}");
+        let rest = format!(
+            "[joints]\nh = {{ revolute = [\"ground\", \"b\"], at = \"O\", axis = [0, 1, 0], drive = \"2*pi*{hertz} Hz*t\" }}"
+        );
+        beam(r#"["O", "A"]"#, &flexible, &rest).replace("damping = 3", "damping = 0").replace("0.5 m", "1 m")
+    };
+    let told = |hertz: f64, order: u32| {
+        let text = spun(hertz, order);
+        let said = compiled(&text).warnings.iter().any(|warning| warning.code.as_str() == "W0124");
+        let run = run_by_default(&text, 1.0);
+        let bends =
+            |one: &linkwear_runtime::RunWarning| matches!(one, linkwear_runtime::RunWarning::BentFar { .. });
+        let is_over = run
+            .stopped
+            .as_ref()
+            .is_some_and(|error| error.to_string().contains("the flexible body `b` bends by"));
+        (said, run.warnings.iter().any(bends), is_over)
+    };
+    // Its first frequency is 7.2 Hz, at 5 Hz one of 5.2 is left: the weight that turns about it then meets resonance.
+    assert_eq!(told(1.0, 1), (false, false, false));
+    assert_eq!(told(5.0, 1), (true, true, false));
+    assert!(told(10.0, 1).2);
+    assert_eq!(told(10.0, 2), (false, false, false));
+}

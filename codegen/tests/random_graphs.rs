@@ -75,6 +75,7 @@ fn nobody() -> Description {
         contacts: Vec::new().into(),
         journals: Vec::new().into(),
         guides: Vec::new().into(),
+        bends: Vec::new().into(),
         coefficients: Vec::new().into(),
         missions: Vec::new().into(),
     }

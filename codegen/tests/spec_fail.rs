@@ -44,11 +44,13 @@ fn diagnostics_of(case: &str) -> Diagnostics {
                 "W0109",
                 "W0110",
                 "W0112",
+                "W0113",
                 "W0116",
                 "W0117",
                 "W0118",
                 "W0119",
                 "W0121",
+                "W0124",
             ]
             .iter()
             .any(|code| case.starts_with(code))

@@ -92,6 +92,21 @@ pub struct CoefficientFactor {
     pub steps: List<Step>,
 }
 
+/// How far the places of a flexible body move in its floating frame, where that is linear in its modal coordinates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BendInfo {
+    /// The body.
+    pub body: Text,
+    /// Its length, by which its deflections are judged [m].
+    pub length: f64,
+    /// First of its modal coordinates among the free ones.
+    pub first: usize,
+    /// How many there are.
+    pub modes: usize,
+    /// Displacement in x, y, z per unit of each modal coordinate [m], mode by mode at one place after the other.
+    pub shapes: List<f64>,
+}
+
 /// Everything a program needs to run, record and explain a mechanism.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
@@ -127,6 +142,8 @@ pub struct Description {
     pub guides: List<usize>,
     /// Duty cycles, in the order of the file.
     pub missions: List<MissionInfo>,
+    /// Flexible bodies whose deflections runs look at. Tables of generated code have none.
+    pub bends: List<BendInfo>,
 }
 
 /// Whether a coordinate has the name of a modal one.
@@ -250,6 +267,7 @@ impl Description {
             coefficients: List::Borrowed(&[]),
             guides: List::Borrowed(&[]),
             missions: tables.missions.iter().map(MissionInfo::from_row).collect(),
+            bends: List::Borrowed(&[]),
         }
     }
 }

@@ -378,6 +378,22 @@ pub enum RunError {
         /// Radius of the journal or ball [m].
         journal_radius: f64,
     },
+    /// A flexible body deflects by more than its length.
+    #[error(
+        "at t = {t} s the flexible body `{body}` bends by {deflection:.3e} m, more than its length of {length:.3e} m: its linear shapes \
+         (`order = 1`) do not hold there; take `order = 2` where it turns fast against its vibrations, or a stiffer section, and check \
+         `young` and loads"
+    )]
+    BentTooFar {
+        /// Time at which it was seen.
+        t: f64,
+        /// The body.
+        body: String,
+        /// Largest displacement of one of its places in the floating frame [m].
+        deflection: f64,
+        /// Length of the body [m].
+        length: f64,
+    },
     /// Energy appears or vanishes that no force explains.
     #[error(
         "up to t = {t} s the energy balance is off by {error:.3e} J while {throughput:.3e} J went through: the numbers \

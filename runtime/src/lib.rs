@@ -118,8 +118,8 @@ pub use {
     column::Column,
     contact_frequency::contact_frequencies,
     description::{
-        Channel, CoefficientFactor, Description, DriverInfo, List, MODE, NEXT, ParameterInfo, ROW, RowInfo,
-        SAMPLE, SWITCH, TabledDescription, VALUE, VariableInfo,
+        BendInfo, Channel, CoefficientFactor, Description, DriverInfo, List, MODE, NEXT, ParameterInfo, ROW,
+        RowInfo, SAMPLE, SWITCH, TabledDescription, VALUE, VariableInfo,
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, Orbit, RevolutionSettings, Steadiness},

@@ -55,21 +55,24 @@ pub fn merged(robot: &Robot, base: Base, left_out: &mut Vec<String>) -> Result<B
             shortened(&fixed)
         ));
     }
-    let parent = |body: usize| {
-        robot.joints.iter().find(|joint| joint.child == bodies[body].first).map(|joint| own[joint.parent])
-    };
+    let mut parents = vec![None; bodies.len()];
+    for joint in robot.joints.iter().filter(|joint| bodies[own[joint.child]].first == joint.child) {
+        parents[own[joint.child]].get_or_insert(own[joint.parent]);
+    }
+    // Whether a body that is kept hangs on it.
+    let mut carries = vec![false; bodies.len()];
     let mut kept = vec![true; bodies.len()];
     // Children come behind their parents.
-    for body in (0..bodies.len()).rev().filter(|body| bodies[*body].mass.is_none()) {
-        if body == 0 && base == Base::Fixed {
-            continue;
-        }
+    for body in (0..bodies.len()).rev() {
         let link = &robot.links[bodies[body].first];
-        let carries = (body + 1..bodies.len()).any(|other| kept[other] && parent(other) == Some(body));
-        if carries && link.is_between {
+        let (carries_one, is_held) = (carries[body], body == 0 && base == Base::Fixed);
+        if bodies[body].mass.is_some() || is_held || (carries_one && link.is_between) {
+            if let Some(parent) = parents[body] {
+                carries[parent] = true;
+            }
             continue;
         }
-        if carries || body == 0 {
+        if carries_one || body == 0 {
             let message = format!("link `{}` moves and has no mass", link.name);
             let cure = if body == 0 {
                 "give it an <inertial>, or hold it: without --floating it is the ground"

@@ -3,6 +3,9 @@
 use super::mass::Mass;
 use super::place::Place;
 
+/// Bodies that a robot may have.
+pub const MOST: usize = 2_000;
+
 /// Whether the root link is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Base {

@@ -196,6 +196,24 @@ fn files_that_are_no_robots_are_refused_with_line_and_cure() {
     assert!(error.message.contains("forearm"), "{error:?}");
 }
 
+#[test]
+fn robots_have_so_many_links_in_either_format_and_no_more() {
+    // A chain of hinges without masses: all of it is left out, from its end on.
+    let chain = |links: usize| {
+        let link = |at: usize| format!("<link name=\"l{at}\"/>\n");
+        let joint = |at: usize| {
+            let sides = format!("<parent link=\"l{}\"/><child link=\"l{at}\"/>", at - 1);
+            format!("<joint name=\"j{at}\" type=\"continuous\">{sides}</joint>\n")
+        };
+        let links: String = (0..links).map(link).chain((1..links).map(joint)).collect();
+        format!("<robot name=\"r\">\n{links}</robot>\n")
+    };
+    let found = from_urdf(&chain(2000), Base::Fixed).expect("a robot");
+    assert_eq!((found.bodies, found.left_out.len()), (0, 2000));
+    let error = from_urdf(&chain(2001), Base::Fixed).expect_err("one too many");
+    assert!(error.message.contains("more than 2000 links") && error.line == 2002, "{error:?}");
+}
+
 /// A letter of a file in another place, the file cut there, a word in the place of a word: by a step that meets all parts.
 fn mutants(text: &str) -> impl Iterator<Item = [String; 3]> + '_ {
     const WORDS: [&str; 9] =

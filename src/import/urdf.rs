@@ -8,7 +8,7 @@ use super::mass::{Mass, Shape, together};
 use super::meshes::Meshes;
 use super::names;
 use super::place::Place;
-use super::robot::{Follows, Joint, Kind, Link, Robot};
+use super::robot::{Follows, Joint, Kind, Link, MOST, Robot};
 use super::xml::Element;
 
 /// Elements that say nothing of how a robot moves, and what they are.
@@ -39,6 +39,9 @@ pub fn read(
     let mut by_name = HashMap::new();
     let mut links = Vec::new();
     let mut faults = Faults::default();
+    if let Some(node) = root.all("link").nth(MOST) {
+        return Err(node.fault(format!("there are more than {MOST} links"), "import a part of them"));
+    }
     for node in root.all("link") {
         // Joints may name one with a fault.
         let named = || {
@@ -57,24 +60,28 @@ pub fn read(
         links.push(link);
     }
     let mut joints: Vec<Joint> = Vec::new();
+    // Places of joints by their names, and by the links that are their children.
+    let (mut named, mut above) = (HashMap::new(), HashMap::new());
     for node in root.all("joint") {
         let Some(joint) = faults.keep(joint(node, &by_name, &mut left_out)) else { continue };
-        if joints.iter().any(|other| other.name == joint.name) {
+        if named.contains_key(&joint.name) {
             let message = format!("two joints are called `{}`", joint.name);
             faults.push(node.fault(message, "give each a name of its own"));
             continue;
         }
-        if let Some(other) = joints.iter().find(|other| other.child == joint.child) {
+        if let Some(other) = above.get(&joint.child).map(|other: &usize| &joints[*other]) {
             let name = &links[joint.child].name;
             let message =
                 format!("link `{name}` is the child of the joints `{}` and `{}`", other.name, joint.name);
             faults.push(node.fault(message, "URDF is for trees; close the loop in the mechanism file"));
         }
+        named.insert(joint.name.clone(), joints.len());
+        above.entry(joint.child).or_insert(joints.len());
         joints.push(joint);
     }
     faults.none()?;
     for (at, node) in root.all("joint").enumerate() {
-        joints[at].follows = follows(node, at, &joints, &mut left_out)?;
+        joints[at].follows = follows(node, at, (&joints, &named), &mut left_out)?;
     }
     let name = root.attribute("name").unwrap_or("robot").to_owned();
     let tree_root = tree(&links, &joints, root)?;
@@ -100,8 +107,9 @@ pub fn read(
 
 /// The link that everything hangs on.
 fn tree(links: &[Link], joints: &[Joint], at: &Element) -> Result<usize, ImportError> {
-    let is_child = |link: usize| joints.iter().any(|joint| joint.child == link);
-    let roots: Vec<usize> = (0..links.len()).filter(|link| !is_child(*link)).collect();
+    let mut is_child = vec![false; links.len()];
+    joints.iter().for_each(|joint| is_child[joint.child] = true);
+    let roots: Vec<usize> = (0..links.len()).filter(|link| !is_child[*link]).collect();
     let [root] = roots[..] else {
         let names: Vec<&str> = roots.iter().take(5).map(|link| &*links[*link].name).collect();
         let message = match roots.len() {
@@ -306,16 +314,16 @@ fn joint(
 fn follows(
     node: &Element,
     at: usize,
-    joints: &[Joint],
+    (joints, named): (&[Joint], &HashMap<String, usize>),
     left_out: &mut Vec<String>,
 ) -> Result<Option<Follows>, ImportError> {
     let Some(mimic) = node.first("mimic") else { return Ok(None) };
     let (own, other) = (&joints[at], mimic.needed("joint")?);
     let (times, plus) = (mimic.number("multiplier", Some(1.0))?, mimic.number("offset", Some(0.0))?);
     let wrong = |message: String| mimic.fault(message, "name the joint that it moves with");
-    let leader = joints
-        .iter()
-        .position(|joint| joint.name == other)
+    let leader = named
+        .get(other)
+        .copied()
         .ok_or_else(|| wrong(format!("joint `{}` mimics `{other}`, which is not in the file", own.name)))?;
     if leader == at {
         return Err(wrong(format!("joint `{other}` mimics itself")));

@@ -39,18 +39,27 @@ pub fn read(text: &str, file: Option<&Arc<str>>) -> Result<Element, ImportError>
     let document = Document::parse_with_options(text, options).map_err(|error| {
         place(error.pos().row as usize, format!("this is no XML that can be read: {error}"))
     })?;
-    element(document.root_element(), file, 0).map_err(|line| {
+    // A place is asked for at every element, and to count its lines anew takes the longer the later it is.
+    let ends: Vec<usize> =
+        text.bytes().enumerate().filter(|(_, byte)| *byte == b'\n').map(|(at, _)| at).collect();
+    element(document.root_element(), (file, &ends), 0).map_err(|line| {
         place(line, format!("this is no XML that can be read: elements stand more than {DEPTH} deep"))
     })
 }
 
-/// A node and all within it; the line at which it is too deep.
-fn element(node: Node<'_, '_>, file: Option<&Arc<str>>, depth: usize) -> Result<Element, usize> {
-    let line = node.document().text_pos_at(node.range().start).row as usize;
+/// A node and all within it, by the ends of lines; the line at which it is too deep.
+fn element(
+    node: Node<'_, '_>,
+    (file, ends): (Option<&Arc<str>>, &[usize]),
+    depth: usize,
+) -> Result<Element, usize> {
+    let start = node.range().start;
+    let line = ends.partition_point(|end| *end < start) + 1;
     if depth > DEPTH {
         return Err(line);
     }
-    let within = node.children().filter(Node::is_element).map(|child| element(child, file, depth + 1));
+    let within =
+        node.children().filter(Node::is_element).map(|child| element(child, (file, ends), depth + 1));
     Ok(Element {
         tag: node.tag_name().name().to_owned(),
         is_macro: node.tag_name().namespace().is_some_and(|space| space.contains("xacro")),
@@ -73,6 +82,12 @@ impl Element {
     /// What an attribute says.
     pub fn attribute(&self, key: &str) -> Option<&str> {
         self.attributes.iter().find(|(name, _)| name == key).map(|(_, value)| &**value)
+    }
+
+    /// It alone, with other attributes.
+    pub fn with(&self, attributes: Vec<(String, String)>) -> Self {
+        let (tag, file) = (self.tag.clone(), self.file.clone());
+        Self { tag, attributes, line: self.line, file, ..Self::default() }
     }
 
     /// Elements of a name right within it.

@@ -101,7 +101,7 @@ macro_rules! stored {
 }
 
 const MARK: [u8; 8] = *b"linkwear";
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// Bytes of a value with mark, version and check sum.
 pub fn sealed(value: &impl Stored) -> Vec<u8> {

@@ -228,6 +228,8 @@ codes! {
     HeldAsFree = "W0122",
     /// A force element holds a point on a body that does not have it, where others do.
     HeldElsewhere = "W0123",
+    /// A link of linear shapes that turns fast beside its first frequency.
+    FastForOrder1 = "W0124",
 }
 
 impl Code {

@@ -3,6 +3,7 @@
 
 mod assembly;
 mod example;
+mod flexible;
 mod form;
 mod mechanics;
 mod names;
@@ -25,6 +26,7 @@ impl Code {
             assembly::ASSEMBLY,
             warnings::WARNINGS,
             warnings::PLAUSIBILITY,
+            flexible::FLEXIBLE,
         ];
         groups.into_iter().flatten().find(|explanation| explanation.code == self)
     }

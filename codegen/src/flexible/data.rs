@@ -151,6 +151,17 @@ impl ModalData {
         }
     }
 
+    /// How long the body is: the diagonal of the box around its nodes [m].
+    pub fn length(&self) -> f64 {
+        let extent = |axis: usize| {
+            let places = self.nodes.iter().map(|node| node.position[axis]);
+            let (low, high) =
+                places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+            (high - low).max(0.0)
+        };
+        (0..3).map(|axis| extent(axis).powi(2)).sum::<f64>().sqrt()
+    }
+
     /// Unit of the modal coordinates, as far as it is known.
     pub fn modal_unit(&self) -> &'static str {
         let unit = |k: usize, l: usize| f64::from(u8::from(k == l));

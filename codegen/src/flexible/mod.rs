@@ -24,6 +24,7 @@ mod legendre;
 mod line;
 mod mesh;
 mod motion;
+mod natural;
 mod reduced;
 mod section;
 mod shapes;

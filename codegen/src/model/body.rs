@@ -33,6 +33,8 @@ pub struct Flexible {
     pub stations: Vec<Station>,
     /// Start value and start speed of every modal coordinate.
     pub start: Vec<[f64; 2]>,
+    /// Young's modulus [Pa] and where it is written; nothing of modal data.
+    pub young: Option<(f64, Span)>,
     /// What was left out, for warnings.
     pub left_out: Vec<LeftOut>,
 }

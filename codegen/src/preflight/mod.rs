@@ -137,6 +137,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     let mut warnings =
         if rigid.is_empty() { Vec::new() } else { vec![immovable::rigid_part(mechanism, &rigid)] };
     warnings.extend(resonance::near_resonance(mechanism));
+    warnings.extend(resonance::fast_for_linear_shapes(mechanism));
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
     warnings.extend(plausible::remarks(mechanism, &analysis));

@@ -31,6 +31,8 @@ const GRAVITY: f64 = 1e7;
 const DENSITIES: [f64; 2] = [10.0, 25_000.0];
 /// Moduli of bearing pairs [Pa], from soft rubber on anything to diamond on diamond.
 const MODULI: [f64; 2] = [100e6, 2e12];
+/// Young's moduli [Pa], from the softest rubbers to just above diamond.
+const YOUNGS_MODULI: [f64; 2] = [1e5, 1.5e12];
 /// Hardnesses [Pa], from soft polymers to diamond.
 const HARDNESSES: [f64; 2] = [1e6, 150e9];
 /// Archard's k is the share of touching asperities that give a particle: severe wear of dry metals has 1e-2.
@@ -47,6 +49,7 @@ pub fn remarks(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Diagnostic> {
     remarks.extend(masses(mechanism));
     remarks.extend(gravity(mechanism));
     remarks.extend(mechanism.bodies.iter().filter_map(|body| density(mechanism, body)));
+    remarks.extend(mechanism.bodies.iter().filter_map(young));
     for joint in &mechanism.joints {
         if let Some(clearance) = &joint.clearance {
             remarks.extend(bearing(mechanism, joint, clearance));
@@ -196,6 +199,14 @@ fn density(mechanism: &Mechanism, body: &Body) -> Option<Diagnostic> {
             message,
             "steel has 7850 kg/m^3, aluminium 2700, polymers about 1200",
         )
+    })
+}
+
+fn young(body: &Body) -> Option<Diagnostic> {
+    let (modulus, span) = body.flexible.as_ref()?.young?;
+    is_odd(modulus, YOUNGS_MODULI).then(|| {
+        let message = format!("Young's modulus of `{}` is {}", body.name, with_unit(modulus, "Pa"));
+        odd(Code::OddMaterial, span, message, "steel has 210 GPa, aluminium 70 GPa, polymers 1 to 4 GPa")
     })
 }
 

@@ -5,6 +5,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::doc::Doc;
+use super::drawn::Drawn;
 use super::texts::{tables, texts_of, without_texts};
 use super::written::{At, Name, Pair, Quantity, Triple};
 
@@ -123,6 +124,9 @@ tables! {
         /// x and y axis of the floating frame of modal data in the ground frame at the reference pose.
         /// [directions; at right angles; default those of the ground; e.g. [[1, 0, 0], [0, 1, 0]]]
         pub axes: Option<At<Vec<Triple>>>,
+        /// How the drawing is turned; no key.
+        #[serde(skip)]
+        pub drawn: Drawn,
     }
 
     /// A section by its numbers.
@@ -235,7 +239,7 @@ pub enum Widths {
     Rectangle(#[cfg_attr(test, schemars(length(equal = 2)))] At<Vec<Quantity>>),
 }
 
-without_texts!(TheorySpec, HeldSpec);
+without_texts!(TheorySpec, HeldSpec, Drawn);
 
 texts_of! {
     enum Centre { Point, At }

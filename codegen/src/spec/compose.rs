@@ -6,10 +6,11 @@ use std::path::{Path, PathBuf};
 
 use toml::de::DeTable;
 
+use super::drawn::Turn;
 use super::file::{File, Parameter};
 use super::include::{IncludeSpec, RotationSpec};
 use super::parse::{self, Spec};
-use super::placed::{Place, Turn, turn};
+use super::placed::{Place, turn};
 use super::read;
 use super::scope::{Asked, Scope, files_of};
 use super::syntax::parse_expression;

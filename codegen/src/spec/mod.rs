@@ -7,6 +7,7 @@ mod controller;
 mod coupling;
 mod dimension;
 mod doc;
+mod drawn;
 mod failure;
 mod file;
 mod force;
@@ -43,6 +44,7 @@ pub use compose::{Composed, composed};
 pub use controller::{ControllerSpec, ControllerStateSpec};
 pub use coupling::{COMPLIANCE_KEYS, COUPLING_KINDS, CouplingKind, CouplingSpec, Hand, NamedBodies};
 pub use dimension::Dimension;
+pub use drawn::Drawn;
 pub(crate) use failure::unknown_key;
 pub use file::{
     CellValues, CheckSpec, ClearanceSpec, Closure, Ends, File, Input, InputTable, Parameter, ParameterTable,

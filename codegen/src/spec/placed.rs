@@ -4,15 +4,13 @@
 use linkwear_runtime::Scalar;
 
 use super::body::{BodySpec, Centre};
+use super::drawn::Turn;
 use super::file::File;
 use super::force::ForceSpec;
 use super::joint::JointSpec;
 use super::point::PointSpec;
 use super::written::{At, Literal, Name, PerBody, Quantity, Table, Triple};
 use crate::source::Span;
-
-/// A rotation.
-pub(super) type Turn = [[f64; 3]; 3];
 
 /// Where a part is.
 pub(super) struct Place {
@@ -75,7 +73,7 @@ impl Place {
             self.point_spec(&mut point.value);
         }
         for (_, body) in &mut bodies.0 {
-            self.body(&mut body.value, faults);
+            self.body(&mut body.value);
         }
         for (name, joint) in &mut joints.0 {
             self.joint(name, &mut joint.value, faults);
@@ -92,7 +90,7 @@ impl Place {
         point.by_body.0.iter_mut().for_each(|(_, at)| self.point(&mut at.value));
     }
 
-    fn body(&self, body: &mut BodySpec, faults: &mut Vec<Fault>) {
+    fn body(&self, body: &mut BodySpec) {
         if let Some(Centre::At(at)) = &mut body.centre {
             self.point(at);
         }
@@ -100,23 +98,10 @@ impl Place {
         self.basis(&mut body.axes, body.inertia.as_ref().map(|inertia| inertia.span));
         let Some(bent) = &mut body.flexible else { return };
         self.basis(&mut bent.value.axes, bent.value.data.as_ref().map(|data| data.span));
-        let is_round = body.rod.is_some() || body.tube.is_some();
-        let modes = bent.value.modes.as_ref().filter(|_| is_round && bent.value.section.is_none());
-        if let Some(modes) = modes.filter(|modes| self.turn.is_some() && !is_even(modes)) {
-            let what =
-                "of its last pair of bending modes a round link keeps the one along the axes of the drawing"
-                    .to_owned();
-            faults.push((
-                modes.span,
-                what,
-                "keep an even number of `modes`, or write a `section` with its `y_axis`",
-            ));
+        if let Some(turn) = &self.turn {
+            bent.value.drawn = bent.value.drawn.turned(turn);
         }
         if let Some(section) = &mut bent.value.section {
-            if self.turn.is_some() && section.value.y_axis.is_none() {
-                let what = "a section without `y_axis` lies along the axes of the drawing".to_owned();
-                faults.push((section.span, what, "write its `y_axis`"));
-            }
             self.directions(section.value.y_axis.as_mut());
         }
     }
@@ -127,8 +112,19 @@ impl Place {
                 let what = "an `equation` is written along the axes of the part".to_owned();
                 faults.push((equation.span, what, "turn the part in its own file"));
             }
-            // The spring of a ball acts alike about all axes.
-            let is_along = joint.spring.is_some() && joint.spherical.is_none();
+            let spring = joint.spring.as_ref();
+            // Of one stiffness, the spring of a ball acts alike about all axes.
+            let is_alike = spring.is_some_and(|spring| spring.stiffness.is_some());
+            if spring.is_some() && joint.spherical.is_some() && !is_alike {
+                let what =
+                    format!("the spring of joint `{}` is written along the axes of the part", name.value);
+                faults.push((
+                    name.span,
+                    what,
+                    "give it one `stiffness`, or put a `bushing` into `[forces]` instead, which turns with the part",
+                ));
+            }
+            let is_along = spring.is_some() && joint.spherical.is_none();
             let is_written = joint.force.is_some() || is_along || joint.drive.is_some();
             if has_ground_axes(joint) && is_written {
                 let what =
@@ -215,14 +211,6 @@ fn has_ground_axes(joint: &JointSpec) -> bool {
     [&joint.spherical, &joint.free, &joint.inline, &joint.inplane, &joint.distance, &joint.on_surface]
         .iter()
         .any(|kind| kind.is_some())
-}
-
-fn is_even(quantity: &Quantity) -> bool {
-    let number = match &quantity.value {
-        Literal::Number(value) => Some(*value),
-        Literal::Text(text) => text.trim().parse().ok(),
-    };
-    number.is_some_and(|number: f64| number % 2.0 == 0.0)
 }
 
 fn is_zero(quantity: &Quantity) -> bool {

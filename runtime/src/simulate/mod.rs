@@ -3,6 +3,7 @@
 //! Never knows files or terminals; a [`Watch`] hears of progress and may stop the run.
 
 mod angles;
+mod bends;
 mod bundle;
 mod changed_laws;
 mod contact_event;

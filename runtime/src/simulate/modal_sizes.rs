@@ -10,6 +10,10 @@ const DIFFERENCE: f64 = 1e-6;
 /// links are damped it rings for some fifty vibrations, over which errors of the steps add up. What bends between its joints without
 /// moving them only adds its inertia.
 const IN_LOOPS: f64 = 0.05;
+/// Part of the largest acceleration or squared speed, in their units, that counts as a load at least. Where nothing loads the modes, as of a
+/// body that falls, their accelerations are rounding of terms of that size, some 1e-15 of them: steps that go by it make no progress. Loads
+/// that are no rounding are larger than this part.
+const LEAST_LOAD: f64 = 1e-6;
 /// Columns of the loops' rows below this part of the largest entry are rounding.
 const NOTHING: f64 = 1e-12;
 
@@ -56,12 +60,17 @@ impl ModalSizes {
     }
 
     /// Learns from a state that counts; whether anything changed.
-    pub(super) fn note(&mut self, q: &[f64], accelerations: &[f64]) -> bool {
+    pub(super) fn note(&mut self, (q, v): (&[f64], &[f64]), accelerations: &[f64]) -> bool {
+        if self.held().next().is_none() {
+            return false;
+        }
         let loads = self.held().map(|mode| {
             let held = mode.stiffness * q[mode.coordinate];
             held.abs().max(accelerations[mode.speed].abs())
         });
-        let load = loads.fold(self.load, f64::max);
+        let speed = largest(v);
+        let least = LEAST_LOAD * largest(accelerations).max(speed * speed);
+        let load = loads.fold(self.load.max(least), f64::max);
         let more = load > self.load;
         self.load = load;
         more

@@ -9,6 +9,7 @@ mod looking;
 use std::ops::ControlFlow;
 
 use super::angles::Angles;
+use super::bends::Bends;
 use super::contacts::{Follower, touched};
 use super::extremes::Collector;
 use super::guard::{Guard, note_driver};
@@ -45,6 +46,7 @@ pub(super) struct Sampler<'a> {
     turning: Vec<bool>,
     guard: Guard,
     unbounded: Unbounded,
+    bends: Bends,
     pub(super) passages: Passages,
     /// Where the extremes of a run go, if anybody asks for them.
     extremes: Option<Collector>,
@@ -89,6 +91,7 @@ impl<'a> Sampler<'a> {
             turning,
             guard,
             unbounded: Unbounded::default(),
+            bends: Bends::new(description),
             passages: Passages::default(),
             extremes: None,
             looks: None,
@@ -226,6 +229,7 @@ impl<'a> Sampler<'a> {
         let regularity = (motion.is_rough(), motion.dynamics.nearness());
         self.passages.note(t, regularity, added < self.ledger.balance.added);
         self.follow(motion, t, state)?;
+        self.bends.note(t, motion.split(state).0)?;
         if !self.ledger.balance.throughput.is_finite() {
             return Err(RunError::NonFinite { t, what: "energy".to_owned() });
         }

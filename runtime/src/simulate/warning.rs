@@ -33,6 +33,17 @@ pub enum RunWarning {
         /// Radial clearance [m].
         clearance: f64,
     },
+    /// A flexible body bends further than linear shapes are good for.
+    BentFar {
+        /// The body.
+        body: String,
+        /// Time of the largest deflection [s].
+        t: f64,
+        /// That deflection [m].
+        deflection: f64,
+        /// Length of the body [m].
+        length: f64,
+    },
     /// The energy balance does not close.
     EnergyOff {
         /// Largest error of the balance [J].
@@ -98,6 +109,12 @@ impl fmt::Display for RunWarning {
                 f,
                 "joint `{joint}` is pressed in by {penetration:.3e} m at t = {t:.6} s, more than its clearance of \
                  {clearance:.3e} m: laws of contact hold for small depths; check loads and stiffness"
+            ),
+            Self::BentFar { body, t, deflection, length } => write!(
+                f,
+                "`{body}` bends by {deflection:.3e} m at t = {t:.6} s, {:.0} % of its length of {length:.3e} m: linear shapes (`order = 1`) \
+                 hold for small deflections; take `order = 2`, or a stiffer section",
+                100.0 * deflection / length
             ),
             Self::EnergyOff { error, throughput } => write!(
                 f,

@@ -97,6 +97,7 @@ impl Journal {
             contacts: vec![contact].into(),
             journals: Vec::new().into(),
             guides: Vec::new().into(),
+            bends: Vec::new().into(),
             coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         };

@@ -136,6 +136,7 @@ impl<M: Model> Dense<M> {
             contacts: model.contacts().into(),
             journals: Vec::new().into(),
             guides: Vec::new().into(),
+            bends: Vec::new().into(),
             coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         };

@@ -71,7 +71,7 @@ pub const COMMANDS: &[Command] = &[
         code: "C0008",
         title: "A run that failed.",
         text: "The motion cannot go on: a driver pushes past a dead point, a loop comes apart, a journal is pressed deep into its \
-               bearing, a force has no value, or steps shrink to nothing. The message says when and why; `check` warns of most \
+               bearing, a link bends by more than its length, a force has no value, or steps shrink to nothing. The message says when and why; `check` warns of most \
                causes beforehand. A coarse step does it too.",
         wrong: "linkwear simulate mechanisms/rssr.toml --integrator rk4 --step 2e-3",
         right: "linkwear simulate mechanisms/rssr.toml --integrator rk4 --step 2e-5",

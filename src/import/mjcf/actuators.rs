@@ -4,6 +4,7 @@ use super::super::error::ImportError;
 use super::super::robot::Actuator;
 use super::super::xml::Element;
 use super::bodies::Tree;
+use super::laws::law;
 use super::settings::is_limited;
 
 /// Attributes that make more of an actuator than a force by signal, coordinate and speed.
@@ -15,9 +16,18 @@ pub fn read(root: &Element, tree: &mut Tree<'_>) -> Result<Vec<Actuator>, Import
     let mut actuators: Vec<Actuator> = Vec::new();
     for element in root.all("actuator").flat_map(|actuator| &actuator.children) {
         let element = &tree.classes.applied(element, None)?;
+        if tree.settings.disabled.actuation {
+            // Told of all by its flag.
+            continue;
+        }
         let number = actuators.len() + 1;
         let name = element.attribute("name").map_or_else(|| format!("actuator_{number}"), str::to_owned);
         let told = format!("<{}> {name}", element.tag);
+        let group = element.number("group", Some(0.0))?;
+        if tree.settings.disabled.groups.contains(&group) {
+            tree.left_out.push(format!("{told}: its group {group} is disabled"));
+            continue;
+        }
         let Some(joint) = element.attribute("joint").or_else(|| element.attribute("jointinparent")) else {
             tree.left_out.push(format!("{told}: it does not act on a joint"));
             continue;
@@ -43,6 +53,7 @@ pub fn read(root: &Element, tree: &mut Tree<'_>) -> Result<Vec<Actuator>, Import
             is_limited.then(|| element.numbers(range, None)).transpose()
         };
         let (control, force) = (limits("ctrllimited", "ctrlrange")?, limits("forcelimited", "forcerange")?);
+        let control = control.filter(|_| !tree.settings.disabled.clamps);
         if [control, force].into_iter().flatten().any(|[low, high]| low >= high) {
             return Err(element
                 .fault(format!("a range of actuator `{name}` is empty"), "the lower limit comes first"));
@@ -51,33 +62,4 @@ pub fn read(root: &Element, tree: &mut Tree<'_>) -> Result<Vec<Actuator>, Import
         actuators.push(Actuator { name, joint, gear, gain, bias, length, control, force });
     }
     Ok(actuators)
-}
-
-/// Gain of the signal, and force by 1, length and speed; None of laws that are not of this form.
-fn law(element: &Element) -> Result<Option<(f64, [f64; 3])>, ImportError> {
-    let of = |key: &str, default: f64| element.number(key, Some(default));
-    Ok(match &*element.tag {
-        "motor" => Some((1.0, [0.0; 3])),
-        "position" => {
-            let (kp, kv) = (of("kp", 1.0)?, of("kv", 0.0)?);
-            Some((kp, [0.0, -kp, -kv]))
-        }
-        "velocity" => {
-            let kv = of("kv", 1.0)?;
-            Some((kv, [0.0, 0.0, -kv]))
-        }
-        "general" => {
-            let is = |key: &str, word: &str| element.attribute(key).unwrap_or(word) == word;
-            let gain = element.up_to("gainprm", 20)?.first().copied().unwrap_or(1.0);
-            let mut bias = element.up_to("biasprm", 20)?;
-            bias.resize(3, 0.0);
-            match element.attribute("biastype").unwrap_or("none") {
-                _ if !is("dyntype", "none") || !is("gaintype", "fixed") => None,
-                "none" => Some((gain, [0.0; 3])),
-                "affine" => Some((gain, [bias[0], bias[1], bias[2]])),
-                _ => None,
-            }
-        }
-        _ => None,
-    })
 }

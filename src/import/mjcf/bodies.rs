@@ -5,15 +5,13 @@ use std::collections::{HashMap, HashSet};
 use super::super::error::ImportError;
 use super::super::mass::{Mass, diagonal_matrix, together};
 use super::super::place::Place;
-use super::super::robot::{Joint, Kind, Link};
+use super::super::robot::{Joint, Kind, Link, MOST};
 use super::super::xml::Element;
 use super::classes::Classes;
 use super::geoms::{Assets, mass};
 use super::joints;
 use super::settings::{FromGeoms, Settings};
 
-/// Bodies that a robot may have.
-const MOST: usize = 2_000;
 /// Elements that make bodies of which this reader knows nothing.
 const MAKERS: [&str; 4] = ["replicate", "attach", "composite", "flexcomp"];
 

@@ -5,13 +5,18 @@ use std::collections::HashMap;
 
 use super::super::error::ImportError;
 use super::super::xml::{Element, numbers_of};
+use super::laws;
 
 /// The class of all that names none.
 const MAIN: &str = "main";
 /// Attributes that say how a thing is turned: an element's own counts alone.
 const TURNS: [&str; 6] = ["quat", "axisangle", "euler", "xyaxes", "zaxis", "fromto"];
-/// Elements that are one in `<default>`: any kind of actuator sets the defaults of all.
-const ACTUATORS: [&str; 4] = ["general", "motor", "position", "velocity"];
+/// Lists of which the defaults have what an element's own lacks at its end.
+const LISTS: [&str; 3] = ["size", "gainprm", "biasprm"];
+/// All of `<equality>`.
+pub const EQUALITY: &str = "equality";
+/// All of `<actuator>`.
+const ACTUATOR: &str = "actuator";
 
 type Attributes = Vec<(String, String)>;
 
@@ -20,14 +25,11 @@ type Attributes = Vec<(String, String)>;
 pub struct Classes(HashMap<String, HashMap<&'static str, Attributes>>);
 
 /// Elements that have defaults here.
-const TAGS: [&str; 6] = ["joint", "geom", "site", "mesh", "equality", "actuator"];
+const TAGS: [&str; 6] = ["joint", "geom", "site", "mesh", EQUALITY, ACTUATOR];
 
+/// Elements that are one in `<default>`: any kind of actuator sets the defaults of all.
 fn family(tag: &str) -> &str {
-    match tag {
-        tag if ACTUATORS.contains(&tag) => "actuator",
-        "connect" | "weld" => "equality",
-        tag => tag,
-    }
+    if laws::KINDS.contains(&tag) { ACTUATOR } else { tag }
 }
 
 impl Classes {
@@ -56,7 +58,9 @@ impl Classes {
         for element in default.children.iter().filter(|element| element.tag != "default") {
             let Some(tag) = TAGS.into_iter().find(|tag| *tag == family(&element.tag)) else { continue };
             let before = own.remove(tag).unwrap_or_default();
-            own.insert(tag, joined(&element.attributes, &before));
+            let all = joined(&element.attributes, &before);
+            let all = if tag == ACTUATOR { laws::stored(&element.with(all))? } else { all };
+            own.insert(tag, all);
         }
         self.0.insert(name.to_owned(), own.clone());
         for nested in default.all("default") {
@@ -75,22 +79,25 @@ impl Classes {
 
     /// An element with the defaults of its class, or of the one that its body gives.
     pub fn applied(&self, element: &Element, of_body: Option<&str>) -> Result<Element, ImportError> {
+        self.applied_as(family(&element.tag), element, of_body)
+    }
+
+    /// The same of an element that stands among those of a family.
+    pub fn applied_as(
+        &self,
+        family: &str,
+        element: &Element,
+        of_body: Option<&str>,
+    ) -> Result<Element, ImportError> {
         let name = element.attribute("class").or(of_body).unwrap_or(MAIN);
         let class = self.0.get(name).ok_or_else(|| {
             let message = format!("there is no class `{name}`");
             element.fault(message, "name one of the classes in <default>; names are case-sensitive")
         })?;
-        let attributes = match class.get(family(&element.tag)) {
+        Ok(element.with(match class.get(family) {
             Some(defaults) => joined(&element.attributes, defaults),
             None => element.attributes.clone(),
-        };
-        Ok(Element {
-            tag: element.tag.clone(),
-            attributes,
-            line: element.line,
-            file: element.file.clone(),
-            ..Element::default()
-        })
+        }))
     }
 }
 
@@ -104,8 +111,7 @@ fn joined(own: &Attributes, defaults: &Attributes) -> Attributes {
             continue;
         }
         match all.iter_mut().find(|(name, _)| name == key) {
-            // What a list lacks at its end the defaults have.
-            Some((_, written)) if key == "size" => {
+            Some((_, written)) if LISTS.contains(&key.as_str()) => {
                 if let (Some(first), Some(rest)) = (numbers_of(written), numbers_of(value))
                     && first.len() < rest.len()
                 {

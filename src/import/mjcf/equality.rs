@@ -6,6 +6,7 @@ use super::super::place::Place;
 use super::super::robot::{Closure, Follows, Joint, Kind};
 use super::super::xml::Element;
 use super::bodies::Tree;
+use super::classes::EQUALITY;
 use super::settings::flag;
 
 /// Entries of two places that differ by less are the same [m or 1].
@@ -15,11 +16,15 @@ const SAME: f64 = 1e-9;
 pub fn read(root: &Element, tree: &mut Tree<'_>, places: &[Place]) -> Result<Vec<Closure>, ImportError> {
     let mut closures: Vec<Closure> = Vec::new();
     for element in root.all("equality").flat_map(|equality| &equality.children) {
-        let element = &tree.classes.applied(element, None)?;
+        let element = &tree.classes.applied_as(EQUALITY, element, None)?;
         let what = &*element.tag;
         let name = element.attribute("name");
         let told = name
             .map_or_else(|| format!("<{what}> of line {}", element.line), |name| format!("<{what}> {name}"));
+        if tree.settings.disabled.equality {
+            // Told of all by its flag.
+            continue;
+        }
         if !flag(element, "active", true)? {
             tree.left_out.push(format!("{told}: it is not active"));
             continue;

@@ -63,6 +63,9 @@ fn passive(
     };
     let (damping, stiffness, armature, friction) =
         (first("damping")?, first("stiffness")?, first("armature")?, first("frictionloss")?);
+    let disabled = &settings.disabled;
+    let damping = if disabled.dampers { 0.0 } else { damping };
+    let stiffness = if disabled.springs { 0.0 } else { stiffness };
     let reference = unit * element.number("ref", Some(0.0))?;
     let rest = unit * element.number("springref", Some(0.0))? - reference;
     let mut lose = |what: &str| left_out.push(format!("{what} of {name}"));

@@ -8,6 +8,7 @@ mod equality;
 mod geoms;
 mod include;
 mod joints;
+mod laws;
 mod settings;
 
 use std::collections::{BTreeMap, HashMap};

@@ -15,6 +15,19 @@ pub enum FromGeoms {
     Never,
 }
 
+/// What the flags of a file switch off.
+#[derive(Clone, Debug, Default)]
+pub struct Disabled {
+    pub springs: bool,
+    pub dampers: bool,
+    pub actuation: bool,
+    pub equality: bool,
+    /// Ranges of the signals of actuators.
+    pub clamps: bool,
+    /// Groups of actuators.
+    pub groups: Vec<f64>,
+}
+
 /// Settings.
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -32,6 +45,7 @@ pub struct Settings {
     pub mesh_folder: String,
     pub strips_path: bool,
     pub gravity: [f64; 3],
+    pub disabled: Disabled,
 }
 
 impl Settings {
@@ -50,6 +64,7 @@ impl Settings {
             mesh_folder: String::new(),
             strips_path: false,
             gravity: [0.0, 0.0, -9.81],
+            disabled: Disabled::default(),
         };
         for compiler in root.all("compiler") {
             settings.compiler(compiler)?;
@@ -61,14 +76,44 @@ impl Settings {
             medium |= wind != [0.0; 3]
                 || option.number("density", Some(0.0))? != 0.0
                 || option.number("viscosity", Some(0.0))? != 0.0;
-            if option.first("flag").and_then(|flag| flag.attribute("gravity")) == Some("disable") {
-                settings.gravity = [0.0; 3];
+            if option.attribute("actuatorgroupdisable").is_some() {
+                settings.disabled.groups = option.up_to("actuatorgroupdisable", 31)?;
+            }
+            for flags in option.all("flag") {
+                settings.flags(flags)?;
             }
         }
+        settings.disabled.tell(left_out);
         if medium {
             left_out.push("wind, density and viscosity of <option>: no medium resists the motion".to_owned());
         }
         Ok(settings)
+    }
+
+    /// What `<flag>` says of all.
+    fn flags(&mut self, element: &Element) -> Result<(), ImportError> {
+        let off = |key: &str| -> Result<Option<bool>, ImportError> {
+            Ok(word(element, key, &["disable", "enable"])?.map(|word| word == "disable"))
+        };
+        if off("gravity")? == Some(true) {
+            self.gravity = [0.0; 3];
+        }
+        let Disabled { springs, dampers, actuation, equality, clamps, groups: _ } = &mut self.disabled;
+        // `passive`, of older versions, is both of springs and dampers; `constraint` is equality and what touches.
+        for (state, keys) in [
+            (springs, ["passive", "spring"]),
+            (dampers, ["passive", "damper"]),
+            (actuation, ["actuation", "actuation"]),
+            (equality, ["constraint", "equality"]),
+            (clamps, ["clampctrl", "clampctrl"]),
+        ] {
+            let [whole, own] = [off(keys[0])?, off(keys[1])?];
+            *state = match (whole, own) {
+                (None, None) => *state,
+                (whole, own) => whole == Some(true) || own == Some(true),
+            };
+        }
+        Ok(())
     }
 
     fn compiler(&mut self, element: &Element) -> Result<(), ImportError> {
@@ -187,6 +232,22 @@ impl Settings {
                 "give it by four numbers, the scalar first",
             )
         })
+    }
+}
+
+impl Disabled {
+    fn tell(&self, left_out: &mut Vec<String>) {
+        for (is_off, what) in [
+            (self.springs, "springs of joints"),
+            (self.dampers, "damping of joints"),
+            (self.actuation, "actuators"),
+            (self.equality, "all of <equality>"),
+            (self.clamps, "ranges of the signals of actuators"),
+        ] {
+            if is_off {
+                left_out.push(format!("{what}: a <flag> of the file disables them"));
+            }
+        }
     }
 }
 

@@ -330,3 +330,79 @@ fn an_inertial_in_a_frame_is_refused_at_its_line() {
     let error = from_robot(&text, Base::Fixed, None, &NoFiles).expect_err("no element of a frame");
     assert!(error.message.contains("<frame>") && error.line == 5, "{error:?}");
 }
+
+#[test]
+fn all_kinds_of_actuators_share_one_store_of_defaults() {
+    let arm = format!("<body><joint name=\"j\"/>{BALL}</body>");
+    let affine = "<general gaintype=\"fixed\" biastype=\"affine\" gainprm=\"50\" biasprm=\"2 -50 -3\"/>";
+    for (defaults, actuator, force) in [
+        (
+            affine,
+            "<position name=\"a\" joint=\"j\"/>",
+            "(50.0 N m/rad)*a + (2.0 N m) + (-50.0 N m/rad)*j.q + (-3.0 N m s/rad)*j.v",
+        ),
+        (
+            affine,
+            "<general name=\"a\" joint=\"j\" biasprm=\"1\"/>",
+            "(50.0 N m/rad)*a + (1.0 N m) + (-50.0 N m/rad)*j.q + (-3.0 N m s/rad)*j.v",
+        ),
+        (affine, "<velocity name=\"a\" joint=\"j\"/>", "(50.0 N m s/rad)*a + (-50.0 N m s/rad)*j.v"),
+        (affine, "<motor name=\"a\" joint=\"j\"/>", "a"),
+        (
+            "<position kp=\"50\" kv=\"3\"/>",
+            "<general name=\"a\" joint=\"j\"/>",
+            "(50.0 N m/rad)*a + (-50.0 N m/rad)*j.q + (-3.0 N m s/rad)*j.v",
+        ),
+        (
+            "<position kp=\"50\" kv=\"3\"/>",
+            "<position name=\"a\" joint=\"j\" kp=\"7\"/>",
+            "(7.0 N m/rad)*a + (-7.0 N m/rad)*j.q + (-3.0 N m s/rad)*j.v",
+        ),
+        (
+            "<position kp=\"50\" kv=\"3\"/>",
+            "<velocity name=\"a\" joint=\"j\"/>",
+            "(50.0 N m s/rad)*a + (-50.0 N m s/rad)*j.v",
+        ),
+        ("<velocity kv=\"9\"/><motor/>", "<general name=\"a\" joint=\"j\"/>", "a"),
+    ] {
+        let found =
+            read(&model(&arm, &format!("<default>{defaults}</default><actuator>{actuator}</actuator>")));
+        let plain = found.text.replace("((", "(").replace("))", ")");
+        assert!(plain.contains(force), "{defaults} {actuator}: {}", found.text);
+        compiled(&found.text);
+    }
+    let muscle = "<default><muscle/></default><actuator><general name=\"a\" joint=\"j\"/></actuator>";
+    let found = read(&model(&arm, muscle));
+    assert!(found.left_out.iter().any(|line| line.contains("no counterpart")), "{:?}", found.left_out);
+}
+
+#[test]
+fn what_flags_and_defaults_switch_off_does_not_act() {
+    let arms = format!(
+        "<body><joint name=\"j\" stiffness=\"3\" damping=\"2\"/>{BALL}</body><body pos=\"0 1 0\"><joint name=\"k\"/>{BALL}</body>"
+    );
+    let rest = "<equality><joint joint1=\"k\" joint2=\"j\" polycoef=\"0 2 0 0 0\"/></equality>\
+                <actuator><motor name=\"m\" joint=\"j\" ctrlrange=\"-1 1\" group=\"2\"/></actuator>";
+    for (extra, gone, told) in [
+        ("<option><flag spring=\"disable\"/></option>", "spring =", "springs of joints"),
+        ("<option><flag damper=\"disable\"/></option>", "damping =", "damping of joints"),
+        ("<option><flag passive=\"disable\"/></option>", "damping =", "springs of joints"),
+        ("<option><flag actuation=\"disable\"/></option>", "force =", "actuators"),
+        ("<option><flag clampctrl=\"disable\"/></option>", "clamp(", "ranges of the signals"),
+        ("<option actuatorgroupdisable=\"2\"/>", "force =", "group 2 is disabled"),
+        ("<option><flag equality=\"disable\"/></option>", "relation =", "<equality>"),
+        ("<option><flag constraint=\"disable\"/></option>", "relation =", "<equality>"),
+        ("<default><equality active=\"false\"/></default>", "relation =", "not active"),
+    ] {
+        let plain = read(&model(&arms, rest));
+        assert!(plain.text.contains(gone), "{gone}: {}", plain.text);
+        let found = read(&model(&arms, &format!("{extra}{rest}")));
+        assert!(!found.text.contains(gone), "{extra}: {}", found.text);
+        assert!(found.left_out.iter().any(|line| line.contains(told)), "{told}: {:?}", found.left_out);
+        compiled(&found.text);
+    }
+    // Defaults of joints are none of what couples them.
+    let found =
+        read(&model(&arms, &format!("<default><joint class=\"main\" damping=\"1\"/></default>{rest}")));
+    assert!(found.text.contains("relation ="), "{}", found.text);
+}

@@ -3,8 +3,8 @@
 use linkwear_runtime::contact::{Onset, Restitution, Stiffness, Strength};
 use linkwear_runtime::wear::{Area, Measure, Step};
 use linkwear_runtime::{
-    Channel, CoefficientFactor, ContactInfo, Description, DriverInfo, GammaRates, InputRole, JournalWear,
-    MissionInfo, Motion, ParameterInfo, RowInfo, SegmentInfo, VariableInfo, WearInfo,
+    BendInfo, Channel, CoefficientFactor, ContactInfo, Description, DriverInfo, GammaRates, InputRole,
+    JournalWear, MissionInfo, Motion, ParameterInfo, RowInfo, SegmentInfo, VariableInfo, WearInfo,
 };
 
 use super::{Damage, Stored};
@@ -60,7 +60,8 @@ stored!(enum Step {
 stored!(struct CoefficientFactor { contact, steps });
 stored!(struct SegmentInfo { name, amount, values, factors });
 stored!(struct MissionInfo { name, ordered, segments, coarser });
+stored!(struct BendInfo { body, length, first, modes, shapes });
 stored!(struct Description {
     name, parameters, inputs, coordinates, speeds, motions, quaternions, rows, drivers, channels, turn_driver, contacts,
-    journals, coefficients, guides, missions,
+    journals, coefficients, guides, missions, bends,
 });

@@ -184,6 +184,7 @@ mod tests {
             contacts: Vec::new().into(),
             journals: Vec::new().into(),
             guides: Vec::new().into(),
+            bends: Vec::new().into(),
             coefficients: Vec::new().into(),
             missions: Vec::new().into(),
         }

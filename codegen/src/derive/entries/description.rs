@@ -2,15 +2,15 @@
 //! In: the deriver's symbols and rows. Out: [`Sizes`], [`Description`]. Never derives.
 
 use linkwear_runtime::{
-    Channel, CoefficientFactor, ContactInfo, Description, DriverInfo, InputRole, JournalWear, MissionInfo,
-    Motion as MotionInfo, ParameterInfo, RowInfo, SegmentInfo, Sizes, VALUE, VariableInfo,
+    BendInfo, Channel, CoefficientFactor, ContactInfo, Description, DriverInfo, InputRole, JournalWear,
+    MissionInfo, Motion as MotionInfo, ParameterInfo, RowInfo, SegmentInfo, Sizes, VALUE, VariableInfo,
 };
 
 use super::deriver::{Deriver, Instant};
 use super::names::{INPUT_RATES, variable_names};
 use super::own_states::unit;
 use crate::derive::geometry::Geometry;
-use crate::derive::linkage::Freedom;
+use crate::derive::linkage::{Freedom, Link};
 use crate::derive::start::StartValues;
 use crate::derive::wear_factor::steps;
 use crate::id::ParameterId;
@@ -88,7 +88,32 @@ impl Deriver<'_> {
             guides: self.guides().into(),
             coefficients: self.coefficients().into(),
             missions: missions.into(),
+            bends: self.bends().into(),
         }
+    }
+
+    /// Flexible bodies whose field is linear in their modes, with the displacement of their nodes.
+    fn bends(&self) -> Vec<BendInfo> {
+        let Geometry { mechanism, linkage, .. } = self.geometry;
+        let links = linkage.links.iter().filter_map(|link| match link.freedom {
+            Freedom::Flexible { modes } => Some((link, modes)),
+            _ => None,
+        });
+        let bend = |(link, modes): (&Link, usize)| {
+            let body = mechanism.body(link.body);
+            let data = &body.flexible.as_ref().filter(|own| own.data.second_order.is_none())?.data;
+            let first = self.free_q.iter().position(|i| *i == link.first_coordinate)?;
+            let shapes = data.nodes.iter().flat_map(|node| &node.displacement).flatten().copied();
+            let shapes: Vec<f64> = shapes.collect();
+            Some(BendInfo {
+                body: body.name.clone().into(),
+                length: data.length(),
+                first,
+                modes,
+                shapes: shapes.into(),
+            })
+        };
+        links.filter_map(bend).collect()
     }
 
     /// States of the file's own, or their integrals.

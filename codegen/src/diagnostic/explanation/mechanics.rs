@@ -131,17 +131,17 @@ bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = 
     },
     Explanation {
         code: Code::NoNodeHere,
-        file: File::Press,
+        file: File::Swing,
         text: "A joint or force attaches to a flexible body where its modal data have no node, so nobody knows \
                how it moves there. Attach it to a node (here they are at 0, 150 and 300 mm along the rod), or \
                have the data written with one there.",
         wrong: r#"[bodies]
-rod = { rod = ["A", "P"], radius = "4 mm", mass = "0.15 kg", flexible = { data = "slider_crank_rod.toml", origin = "A" } }"#,
-        right: r#"[points]
-P = ["340 mm", 0, 0]
+bar = { rod = ["O", "A"], radius = "4 mm", mass = "0.15 kg", flexible = { data = "slider_crank_rod.toml", origin = "O" } }"#,
+        right: r#"[parameters]
+length = "300 mm"
 
 [bodies]
-rod = { rod = ["A", "P"], radius = "4 mm", mass = "0.15 kg", flexible = { data = "slider_crank_rod.toml", origin = "A" } }"#,
+bar = { rod = ["O", "A"], radius = "4 mm", mass = "0.15 kg", flexible = { data = "slider_crank_rod.toml", origin = "O" } }"#,
     },
     Explanation {
         code: Code::BadClearance,

@@ -335,23 +335,6 @@ P = [0, 0, "0.25 m"]
 hinge = { revolute = ["ground", "bar"], at = "P", axis = [0, 0, 1], dry_friction = { coefficient = 0.1, radius = "10 mm", length = "0.5 m" } }"#,
     },
     Explanation {
-        code: Code::HeldAsFree,
-        file: File::Swing,
-        text: "A weld, a guide, a drive, or a pin across which the weight bends the link, keeps a section from turning, and \
-               the shapes of the link leave it free to. Many modes are needed then for the moment there: a cantilever with \
-               two pinned modes in each plane sags three quarters of what it should. Without `held` such an end is clamped.",
-        wrong: r#"[bodies]
-bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = { modes = 4, young = "210 GPa", held = "pinned" } }
-
-[joints]
-hinge = { prismatic = ["ground", "bar"], at = "O", axis = [0, 1, 0] }"#,
-        right: r#"[bodies]
-bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = { modes = 4, young = "210 GPa" } }
-
-[joints]
-hinge = { prismatic = ["ground", "bar"], at = "O", axis = [0, 1, 0] }"#,
-    },
-    Explanation {
         code: Code::HeldElsewhere,
         file: File::Swing,
         text: "A spring, a force or another element holds a point on a body that does not have it, where others do: points that \

@@ -66,14 +66,19 @@ impl Resolver<'_> {
         let [start, end] = ends.map(|point| self.fixed_position(name, point, carrier));
         let x = inertia::unit(inertia::between(start, end))?;
         let given = spec.value.section.as_ref().and_then(|section| section.value.y_axis.as_ref());
+        let drawn = spec.value.drawn;
+        let chosen = || {
+            let hinges: Vec<_> = hinges(carrier, joints).into_iter().map(|axis| drawn.before(axis)).collect();
+            section_axes(drawn.before(x), &hinges).map(|axis| drawn.after(axis))
+        };
         let along = match (&body.inertia, given) {
             (_, Some(axis)) => self.direction(axis, &place("y_axis", "body", name)),
             (Inertia::Box { width_axis, .. }, None) => Some(*width_axis),
-            _ => None,
+            _ => drawn.is_turned().then(|| chosen()[1]),
         };
         let frame = match along.and_then(|y| inertia::unit(inertia::perpendicular_part(y, x))) {
             Some(y) => [x, y, inertia::cross(x, y)],
-            None => section_axes(x, &hinges(carrier, joints)),
+            None => chosen(),
         };
         Some(Axis { origin: ends[0], start, frame, length: inertia::distance(start, end) })
     }
@@ -162,6 +167,8 @@ impl Resolver<'_> {
             stations.push(Station { name: label, node: data.nodes.len(), stress });
             data.nodes.push(node);
         }
+        let modulus = input.segments.first().map(|segment| segment.material.youngs_modulus);
+        let young = modulus.zip(spec.value.young.as_ref().map(|written| written.span));
         let truncated = beam.truncated();
         let left_out = [
             ("bending along y", truncated.y),
@@ -175,6 +182,7 @@ impl Resolver<'_> {
             nodes,
             stations,
             start: vec![[0.0; 2]; data.modes.len()],
+            young,
             left_out: left_out
                 .map(|(name, frequency)| LeftOut {
                     name: name.to_owned(),

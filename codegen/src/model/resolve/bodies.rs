@@ -210,7 +210,14 @@ impl Resolver<'_> {
                 self.missing(body.span, list.span, Code::MissingKey, message)
                     .help("add `width_axis = [0, 0, 1]`, the direction of the first of `width`");
             }
-            return inertia::any_perpendicular(along.unwrap_or([1.0, 0.0, 0.0]));
+            let along = along.unwrap_or([1.0, 0.0, 0.0]);
+            let drawn = body.value.flexible.as_ref().map(|bent| bent.value.drawn).unwrap_or_default();
+            if !drawn.is_turned() {
+                return inertia::any_perpendicular(along);
+            }
+            // Turned with the drawing, and made to be at right angles to the last place.
+            let across = drawn.after(inertia::any_perpendicular(drawn.before(along)));
+            return inertia::unit(inertia::perpendicular_part(across, along)).unwrap_or(across);
         };
         let what = place("width_axis", "body", name);
         let (Some(axis_value), Some(along)) = (self.direction(axis, &what), along) else {

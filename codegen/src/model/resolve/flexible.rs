@@ -61,7 +61,10 @@ impl Resolver<'_> {
             let uses = self.uses_of(carrier, &bodies[index], joints, forces);
             let of = Bending { name, carrier, spec, body: &bodies[index], joints, uses: &uses, gravity };
             let flexible = match &spec.value.data {
-                Some(data) => self.read_modal_data(of, data),
+                Some(data) => {
+                    self.check_modal_keys(name, &body.value, &spec.value);
+                    self.read_modal_data(of, data)
+                }
                 None => self.beam(of),
             };
             bodies[index].flexible = flexible.map(Box::new);
@@ -161,13 +164,12 @@ impl Resolver<'_> {
     /// Constants from a file beside this one.
     fn read_modal_data(&mut self, of: Bending<'_>, file: &Name) -> Option<Flexible> {
         let Bending { name, carrier, spec, .. } = of;
-        self.check_beam_keys(name, &spec.value);
         let found = read_named(Path::new(&self.source.name), &file.value, self.reach, limits::DATA_BYTES);
         let data = found.map_err(|error| error.to_string()).and_then(|(path, text)| {
             self.attached.push(path);
             ModalData::from_toml(&text).map_err(|error| error.to_string())
         });
-        let data = match data {
+        let mut data = match data {
             Ok(data) => data,
             Err(reason) => {
                 // The reason may quote the file, which need not be meant for who reads the message.
@@ -179,6 +181,10 @@ impl Resolver<'_> {
                 return None;
             }
         };
+        self.check_modal_mass(of, &data);
+        // Those that are written are for people.
+        let frequencies = data.natural_frequencies();
+        data.modes.iter_mut().zip(frequencies).for_each(|(mode, frequency)| mode.frequency = frequency);
         let Some(origin) = &spec.value.origin else {
             let message = format!("nothing says where the floating frame of `{}` lies", name.value);
             self.refuse(Code::MissingKey, spec.span, message)
@@ -197,19 +203,7 @@ impl Resolver<'_> {
             .filter(looked_at)
             .map(|node| Station { name: data.nodes[node].name.clone(), node, stress: None })
             .collect();
-        Some(Flexible { axes, origin, nodes, stations, start, left_out: Vec::new(), data })
-    }
-
-    /// Keys of a beam that mean nothing beside modal data.
-    fn check_beam_keys(&mut self, name: &Name, spec: &FlexibleSpec) {
-        const KEYS: &[&str] = &[
-            "young", "poisson", "modes", "axial", "torsion", "damping", "theory", "held", "order", "steps",
-            "masses",
-        ];
-        for (key, span) in spec.written().into_iter().filter(|(key, _)| KEYS.contains(key)) {
-            let message = format!("`{key}` of body `{}` belongs to a beam, not to modal data", name.value);
-            self.refuse(Code::ConflictingKeys, span, message).help("take it away");
-        }
+        Some(Flexible { axes, origin, nodes, stations, start, young: None, left_out: Vec::new(), data })
     }
 
     /// The node at every point used.
@@ -231,7 +225,16 @@ impl Resolver<'_> {
             let apart = |node: &crate::flexible::Node| inertia::distance(node.position, local);
             let nearest = (0..data.nodes.len())
                 .min_by(|a, b| apart(&data.nodes[*a]).total_cmp(&apart(&data.nodes[*b])));
-            let Some(node) = nearest else { continue };
+            let Some(node) = nearest else {
+                let point = &self.points[own.point.index()];
+                let message = format!(
+                    "the flexible body `{}` has no node at `{}`: its modal data have no nodes at all",
+                    name.value, point.name
+                );
+                self.refuse(Code::NoNodeHere, point.span, message)
+                    .help("add a `[[node]]` to the modal data for every point of the body that is used");
+                continue;
+            };
             if apart(&data.nodes[node]) <= NODE_DISTANCE * size.sqrt() {
                 nodes.push((own.point, node));
                 continue;

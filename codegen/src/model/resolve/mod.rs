@@ -31,6 +31,7 @@ mod lookup;
 mod matrices;
 mod mesh;
 mod missions;
+mod modal_keys;
 mod modal_start;
 mod names;
 mod overrides;

@@ -71,7 +71,7 @@ impl Resolver<'_> {
         }
     }
 
-    fn refuse_tunable(&mut self, formula: &Formula, what: &str) {
+    pub(super) fn refuse_tunable(&mut self, formula: &Formula, what: &str) {
         if self.is_tunable(formula) {
             self.refuse(Code::TunableNotAllowed, formula.span, format!("{what} is tunable"))
                 .help("modes are computed at generation; take the `tunable` mark away");

@@ -125,7 +125,8 @@ impl Problem for ConstrainedMotion<'_> {
 
     fn reached(&mut self, t: f64, y: &[f64], derivative: &[f64]) {
         let accelerations = &derivative[self.coordinates..][..self.speeds];
-        if self.modal.note(&y[..self.coordinates], accelerations) {
+        let (q, v, _) = self.split(y);
+        if self.modal.note((q, v), accelerations) {
             self.modal.write(self.scales.split_at_mut(self.coordinates));
         }
         self.regularity_reached = self.dynamics.nearness();

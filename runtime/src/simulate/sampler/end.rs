@@ -42,6 +42,7 @@ impl Sampler<'_> {
             run.warnings = follower.warnings(&motion.dynamics.evaluator, &self.ledger, limits);
             run.turns = follower.measures;
         }
+        run.warnings.extend(self.bends.warnings());
         run.warnings.extend(self.unbounded.warnings(&run.channels));
         run.warnings.extend(warning::rounded_angle(motion.angles(&self.reached.1)));
         if run.stopped.is_none() && is_doubtful(&self.ledger, motion.worn(&self.reached.1)) {
