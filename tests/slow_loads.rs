@@ -4,6 +4,7 @@ mod support;
 
 use linkwear::backend::Backend;
 use linkwear::mechanism::Mechanism;
+use linkwear::sensitivity::{SensitivityError, SensitivityStudy};
 use linkwear_codegen::Options;
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::life::WearSource;
@@ -92,6 +93,16 @@ fn a_second_drive_makes_turns_that_are_not_alike() {
         .replace("[joints]\n", &format!("{cam}[joints]\n"))
         .replace("[clearance", &format!("{drive}[clearance"));
     assert_wears(&after, 20.0, 2e-3);
+}
+
+/// Derivatives are those of one turn.
+#[test]
+fn derivatives_of_turns_that_are_not_alike_are_refused() {
+    let more = "[parameters]\nload = { value = \"15 N\", tunable = true }\n";
+    let text = rotor("load*(1 - cos(2*pi*t/(1.6 s)))", more);
+    let source = SourceFile { name: "rotor.toml".to_owned(), text };
+    let found = SensitivityStudy::new(&source).run();
+    assert!(matches!(found, Err(SensitivityError::SeveralTurns { turns: 8 })), "{:?}", found.err());
 }
 
 #[test]

@@ -115,6 +115,14 @@ impl<'a> DynamicsSource<'a> {
         self.runner.seconds_per_turn()
     }
 
+    /// After how many turns drives and forces repeat: so many are measured as one.
+    ///
+    /// # Errors
+    /// [`RunError::NeverAlike`] if they do not.
+    pub fn turns_to_repeat(&mut self) -> Result<u32, RunError> {
+        Ok(self.recurrence()?.every)
+    }
+
     /// How steady the turns of the last measurement were, per wearing joint.
     pub fn steadiness(&self) -> &[Steadiness] {
         self.steadiness.last().map_or(&[], Vec::as_slice)

@@ -1,17 +1,16 @@
 //! What went wrong, for people and for machines, and the exit code that says whose fault it was.
 //! In: errors of every stage. Out: text on stderr or `{"errors": [..]}` on stdout.
 
+mod from;
+
 use std::fmt::{self, Display, Write as _};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use crate::backend::BackendError;
-use crate::csv_table::CsvError;
-use crate::files::{STDOUT, WriteError, print};
+use crate::files::{WriteError, print};
 use crate::journal::JournalError;
 use crate::life::MergeError;
-use crate::mechanism::LoadError;
 use crate::provenance::sealed;
 use crate::remark::remark;
 use crate::study::{LIFE_FAILED, RUN_FAILED};
@@ -311,71 +310,6 @@ impl Display for Failure {
 }
 
 impl std::error::Error for Failure {}
-
-impl From<Diagnostics> for Failure {
-    fn from(wrong: Diagnostics) -> Self {
-        let text = wrong.to_string().trim_end().to_owned();
-        let coloured = Some(wrong.in_colours());
-        Self { exit: FAILED, text, coloured, errors: entries(&wrong), cycles: None }
-    }
-}
-
-impl From<WriteError> for Failure {
-    fn from(error: WriteError) -> Self {
-        let (code, file, help) = match &error {
-            WriteError::System { file, .. } if file == Path::new(STDOUT) => {
-                ("C0003", file, "make room where it goes, or send it elsewhere")
-            }
-            WriteError::System { file, .. } => {
-                ("C0003", file, "nothing was changed; give a file in a folder that exists and can be written")
-            }
-            WriteError::Exists(file) => ("C0004", file, "choose another name"),
-        };
-        Self::new(code, Some(file), &error, help)
-    }
-}
-
-impl From<CsvError> for Failure {
-    fn from(error: CsvError) -> Self {
-        match error {
-            CsvError::Read { file, error } => Self::read(&file)(error),
-            CsvError::Data { file, line, message, help } => Self::data(&file, line, message, help),
-            CsvError::Several { faults, more } => {
-                let all = faults.into_iter().map(Self::from).reduce(Self::and);
-                let mut all = all.unwrap_or_else(|| Self::new("C0011", None, "the file is wrong", ""));
-                if more > 0 {
-                    let _ = write!(all.text, "\n\nand {more} more of them");
-                }
-                all
-            }
-        }
-    }
-}
-
-impl From<LoadError> for Failure {
-    fn from(error: LoadError) -> Self {
-        match error {
-            LoadError::Read { file, error } => Self::read(&file)(error),
-            LoadError::Mechanism(diagnostics) => diagnostics.into(),
-            LoadError::Backend(error) => error.into(),
-        }
-    }
-}
-
-impl From<BackendError> for Failure {
-    fn from(error: BackendError) -> Self {
-        let (name, help) = match error {
-            BackendError::Compiled { .. } => (
-                "compiled",
-                "use --backend auto, or compile the mechanism into a program of yours (README, Embedding)",
-            ),
-            BackendError::Native(_) => {
-                ("native", "use --backend auto: the interpreter gives the same results, in more time")
-            }
-        };
-        Self::new("C0007", None, format!("--backend {name}: {error}"), help)
-    }
-}
 
 fn suggestion(name: &str, known: &[String], listed: &[String]) -> String {
     match nearest(name, known.iter().map(String::as_str)) {

@@ -45,6 +45,12 @@ pub enum SensitivityError {
     /// Turns last differently.
     #[error("turns of this mechanism last differently, so that none is as the one before")]
     UnevenTurns,
+    /// Drives or forces are alike only after several turns.
+    #[error("drives or forces of this mechanism repeat after {turns} turns, and derivatives are those of one")]
+    SeveralTurns {
+        /// After how many.
+        turns: u32,
+    },
     /// A joint keeps its wear by bearing angle.
     #[error("the wear of joint `{joint}` by bearing angle is not differentiated")]
     Profile {

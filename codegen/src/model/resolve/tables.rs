@@ -105,7 +105,7 @@ impl Resolver<'_> {
             );
             self.refuse(Code::BadTable, file.span, message).help(
                 "a CSV file with the header `angle [deg], torque [N m]` and two columns, the argument first; its path is relative \
-                 to this file",
+                 to this file, and leads out of its folder only with --allow-outside-data",
             );
         })
         .ok()
