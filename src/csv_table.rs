@@ -1,19 +1,18 @@
 //! Tables of numbers in CSV files. In: a path. Out: cells by named columns, with their lines; or what is wrong, where, and
 //! what to do. Never knows what the columns mean.
 
-mod faults;
+mod error;
 mod number;
 pub(crate) mod rows;
 
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use linkwear_codegen::diagnostic::{cut, nearest};
 use linkwear_codegen::input::read_text;
 use linkwear_codegen::limits;
-use thiserror::Error;
 
-use self::faults::{gather, told};
+pub use self::error::CsvError;
+use self::error::{fault, gather};
 use self::rows::{BrokenRow, Row, Rows};
 use crate::checksum::sha256_of;
 
@@ -22,39 +21,6 @@ const BY_COMMAS: &str = "columns are parted by commas: write the file with comma
 
 /// Letters of a cell or of a list of names that are shown.
 const SHOWN: [usize; 2] = [40, 300];
-
-/// A file that is no table of what is asked for.
-#[derive(Debug, Error)]
-pub enum CsvError {
-    /// It cannot be read.
-    #[error("cannot read `{}`: {error}", .file.display())]
-    Read {
-        /// The file.
-        file: PathBuf,
-        /// Why.
-        error: io::Error,
-    },
-    /// Something is wrong in it.
-    #[error("{message}")]
-    Data {
-        /// The file.
-        file: PathBuf,
-        /// Line, from 1, if the fault has one.
-        line: Option<usize>,
-        /// The cause.
-        message: String,
-        /// What to do.
-        help: String,
-    },
-    /// Several things are.
-    #[error("{}", told(.faults, *.more))]
-    Several {
-        /// The first of them.
-        faults: Vec<CsvError>,
-        /// How many come behind those.
-        more: usize,
-    },
-}
 
 /// A CSV file in memory.
 pub struct CsvTable<'a> {
@@ -244,10 +210,6 @@ impl<'a> CsvTable<'a> {
         let column = self.place(name)?;
         Ok(self.rows.iter().map(|(_, record)| record[column].to_owned()).collect())
     }
-}
-
-fn fault(file: &Path, line: Option<usize>, message: String, help: &str) -> CsvError {
-    CsvError::Data { file: file.to_path_buf(), line, message, help: help.to_owned() }
 }
 
 fn broken(file: &Path, header: &[String], BrokenRow { line, cells, why }: BrokenRow) -> CsvError {

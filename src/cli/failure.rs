@@ -8,7 +8,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use crate::files::{WriteError, print};
+use crate::files::{STDOUT, WriteError, print};
 use crate::journal::JournalError;
 use crate::life::MergeError;
 use crate::provenance::sealed;

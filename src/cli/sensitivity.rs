@@ -63,7 +63,9 @@ fn failed(arguments: &SensitivityArguments, error: SensitivityError) -> Failure 
         | SensitivityError::NoLives { .. } => {
             life("leave it out of --by; `study --vary` runs the life at values of it")
         }
-        SensitivityError::SeveralTurns { .. } => life("study --vary NAME=A..B:N --of life.mean has lives on both sides"),
+        SensitivityError::SeveralTurns { .. } => {
+            life("study --vary NAME=A..B:N --of life.mean has lives on both sides")
+        }
         SensitivityError::NothingWears => life("give a joint a table in [clearance] and one in [wear]"),
         SensitivityError::NotSettled { .. } | SensitivityError::NoPeriod { .. } => {
             life("a motion without a period has no derivative; `study --vary` shows how its lives differ")

@@ -46,7 +46,9 @@ pub enum SensitivityError {
     #[error("turns of this mechanism last differently, so that none is as the one before")]
     UnevenTurns,
     /// Drives or forces are alike only after several turns.
-    #[error("drives or forces of this mechanism repeat after {turns} turns, and derivatives are those of one")]
+    #[error(
+        "drives or forces of this mechanism repeat after {turns} turns, and derivatives are those of one"
+    )]
     SeveralTurns {
         /// After how many.
         turns: u32,

@@ -74,6 +74,17 @@ pub enum RunWarning {
         /// Columns that the loops leave open there.
         columns: Vec<String>,
     },
+    /// Rows hold a larger force than the steps met, by which peaks are told.
+    PeakBetween {
+        /// The joint.
+        joint: String,
+        /// Time of the row [s].
+        t: f64,
+        /// Its force [N].
+        force: f64,
+        /// The peak by the steps [N].
+        peak: f64,
+    },
     /// A journal does not run steadily, and leaves that so slowly that turns do not show where it gets to.
     GrowsSlowly {
         /// Turns in which a swing grows by a factor e.
@@ -138,6 +149,11 @@ impl fmt::Display for RunWarning {
                 "at t = {t:.6} s the mechanism stands in a singular position, at rest or at a dead point: the loops leave open \
                  how large {} there, and rows hold the smallest forces that fit; let it stop a little beside it",
                 listed(columns, ["is", "are"])
+            ),
+            Self::PeakBetween { joint, t, force, peak } => write!(
+                f,
+                "joint `{joint}` has a force of {force:.4e} N in the row at t = {t:.6} s and a peak of {peak:.4e} N by the steps: it grows \
+                 and falls faster than they are long, as near a position in which its reactions are not unique; `check` lists those"
             ),
             Self::GrowsSlowly { turns, ran } => write!(
                 f,
