@@ -3,7 +3,7 @@
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::BodyId;
-use crate::model::{Carrier, Flexible, Joint, Mechanism};
+use crate::model::{Carrier, Flexible, Joint, Look, Mechanism};
 
 /// Harmonics looked at: those of a linkage fall off quickly, and beyond these some harmonic is always near.
 const HARMONICS: usize = 20;
@@ -101,7 +101,7 @@ fn turning_with(mechanism: &Mechanism, hinge: &Joint) -> Vec<BodyId> {
     let mut at = 0;
     while let Some(body) = bodies.get(at).copied() {
         at += 1;
-        for joint in mechanism.joints.iter().filter(|joint| joint.model.kind.name == "fixed") {
+        for joint in mechanism.joints.iter().filter(|joint| joint.model.kind.look() == Look::Rigid) {
             let others = [(joint.parent, joint.child), (joint.child, joint.parent)];
             for (_, other) in others.into_iter().filter(|(own, _)| *own == Carrier::Body(body)) {
                 if let Carrier::Body(other) = other

@@ -22,8 +22,11 @@ fn assembled(compiled: &Compiled, parameters: &[f64], t: f64) -> Vec<f64> {
     [start.q, start.v].concat()
 }
 
+/// A time [s], parameters with other values, and what C says of a start with them.
+type Case<'a> = (f64, &'a [(&'a str, f64)], f64);
+
 /// Starts with other values and times: the runtime's where C has one.
-fn assert_starts(compiled: &Compiled, cases: &[(f64, &[(&str, f64)], f64)]) {
+fn assert_starts(compiled: &Compiled, cases: &[Case<'_>]) {
     let name = &compiled.mechanism.name;
     let description = compiled.description();
     for built in
@@ -109,7 +112,7 @@ fn starts_are_those_that_are_assembled_or_refused() {
         &[same, (0.0, &[("x0", 5.0), ("q0", 0.1)], DONE), (2.0, &[("q0", -0.2)], DONE)],
     );
     let driven = written("four_bar", FOUR_BAR);
-    let cases: &[(f64, &[(&str, f64)], f64)] = &[
+    let cases: &[Case<'_>] = &[
         same,
         (0.0, &[("phase", 0.5), ("x0", 3.0), ("speed", 20.0)], DONE),
         (0.0, &[("phase", -2.0)], DONE),

@@ -99,6 +99,10 @@ impl ModalSizes {
     /// As [`crate::Evaluator::visit_memory`].
     pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         visit(&mut self.load);
+    }
+
+    /// The same of what is known of modes from a start.
+    pub(super) fn visit_modes(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         for mode in &mut self.modes {
             visit(&mut mode.stiffness);
             visit(&mut mode.share);

@@ -160,13 +160,18 @@ impl<'a> ConstrainedMotion<'a> {
         self.modal = ModalSizes::new(&mut self.dynamics.evaluator, (t, q, v));
     }
 
+    /// As [`Self::visit_memory`], with sizes before: they are those of a start, which may have had other parameters.
+    pub(super) fn visit_sizes_and_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
+        visit(&mut self.arm);
+        self.scales.iter_mut().chain(&mut self.sizes).for_each(&mut *visit);
+        self.modal.visit_modes(visit);
+        self.use_sizes();
+        self.visit_memory(visit);
+    }
+
     /// As [`crate::Evaluator::visit_memory`], of all that it stands on too.
     pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         self.dynamics.visit_memory(visit);
-        // Sizes are those of the start, which may have had other parameters.
-        visit(&mut self.arm);
-        self.scales.iter_mut().chain(&mut self.sizes).for_each(&mut *visit);
-        self.use_sizes();
         self.modal.visit_memory(visit);
         self.modal.write(self.scales.split_at_mut(self.coordinates));
         visit(&mut self.energy_scale);

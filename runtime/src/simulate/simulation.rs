@@ -354,7 +354,7 @@ impl<'a> Simulation<'a> {
     pub fn state(&mut self) -> SimulationState {
         let mut memory = Vec::new();
         self.visit_memory(&mut |number| memory.push(*number));
-        self.motion.visit_memory(&mut |number| memory.push(*number));
+        self.motion.visit_sizes_and_memory(&mut |number| memory.push(*number));
         SimulationState {
             t: self.t,
             parameters: self.parameters().to_vec(),
@@ -371,7 +371,7 @@ impl<'a> Simulation<'a> {
     pub fn restore(&mut self, kept: &SimulationState) -> Result<(), SetupError> {
         let (mut own, mut motion) = (0, 0);
         self.visit_memory(&mut |_| own += 1);
-        self.motion.visit_memory(&mut |_| motion += 1);
+        self.motion.visit_sizes_and_memory(&mut |_| motion += 1);
         let joints = self.motion.dynamics.evaluator.clearances().states().len();
         kept.fits(own + motion, joints, self.sampler.angles.count())?;
         self.motion.dynamics.evaluator.set_parameters(&kept.parameters)?;
@@ -380,10 +380,10 @@ impl<'a> Simulation<'a> {
         self.visit_memory(&mut put(own_memory));
         self.motion.dynamics.evaluator.clearances_mut().states_mut().clone_from_slice(&kept.joints);
         self.sampler.angles.put_back(&kept.angles);
-        self.motion.visit_memory(&mut put(motion_memory));
+        self.motion.visit_sizes_and_memory(&mut put(motion_memory));
         self.sampler.resume(&mut self.motion);
         // Once more: looking at the state has changed what solvers remember.
-        self.motion.visit_memory(&mut put(motion_memory));
+        self.motion.visit_sizes_and_memory(&mut put(motion_memory));
         Ok(())
     }
 

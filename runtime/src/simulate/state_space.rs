@@ -247,7 +247,7 @@ impl<'a> StateSpace<'a> {
     /// Everything that has to be kept to go on from here.
     pub fn state(&mut self) -> SimulationState {
         let mut memory = self.state.clone();
-        self.motion.visit_memory(&mut |number| memory.push(*number));
+        self.motion.visit_sizes_and_memory(&mut |number| memory.push(*number));
         SimulationState {
             t: self.t,
             parameters: self.parameters().to_vec(),
@@ -263,7 +263,7 @@ impl<'a> StateSpace<'a> {
     /// If it does not belong to this mechanism; nothing has changed then.
     pub fn restore(&mut self, kept: &SimulationState) -> Result<(), SetupError> {
         let mut length = self.state.len();
-        self.motion.visit_memory(&mut |_| length += 1);
+        self.motion.visit_sizes_and_memory(&mut |_| length += 1);
         kept.fits(length, self.contacts.len(), self.sampler.angles.count())?;
         self.motion.dynamics.evaluator.set_parameters(&kept.parameters)?;
         self.t = kept.t;
@@ -277,7 +277,7 @@ impl<'a> StateSpace<'a> {
         self.contacts.copy_from_slice(evaluator.clearances().contacts());
         self.sampler.angles.put_back(&kept.angles);
         let mut memory = memory.iter();
-        self.motion.visit_memory(&mut |number| *number = memory.next().copied().unwrap_or(*number));
+        self.motion.visit_sizes_and_memory(&mut |number| *number = memory.next().copied().unwrap_or(*number));
         self.sampled = false;
         Ok(())
     }
