@@ -64,6 +64,7 @@ fn a_state_that_takes_a_thousand_turns_has_come_to_rest() {
     // What counts the work does nothing.
     let counter = "[states]\nx = { initial = \"0 J\", rate = \"3 W\" }\n";
     assert_wears(&rotor("10 N", counter), 10.0, 1e-4);
+    assert_wears(&rotor("x", &format!("{state}w = {{ initial = \"0 J\", rate = \"3 W\" }}\n")), 30.0, 1e-4);
     let grows = "[states]\nx = { initial = \"0 N\", rate = \"0.01 N/(1 s)\" }\n";
     assert_refused(&rotor("x", grows));
 }

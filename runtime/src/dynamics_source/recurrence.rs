@@ -11,7 +11,7 @@ use crate::simulate::TurnRunner;
 const TURNS: usize = 400;
 /// Parts of each turn that are looked at, ...
 const PHASES: usize = 24;
-/// ... from here on, in parts of their distance: not at a turn's ends and simple parts of it, where laws like to jump.
+/// ... from here on, in parts of their distance: not at a turn's ends and simple parts of it, where laws like to jump and drives to rest.
 const FIRST: f64 = 0.371;
 /// Accelerations are alike that differ by this part of the largest of their kind, ...
 const ALIKE: f64 = 1e-6;
@@ -43,16 +43,19 @@ impl Recurrence {
     /// # Errors
     /// [`RunError::NeverAlike`] if laws do not repeat in the turns that are looked at.
     pub fn of(runner: &mut TurnRunner<'_>) -> Result<Self, RunError> {
-        let mut ends = vec![runner.t()];
-        while let (true, Some(last)) = (ends.len() <= TURNS, ends.last().copied()) {
+        let mut part = FIRST / PHASES as f64;
+        let mut times = Vec::new();
+        let mut last = runner.t();
+        while times.len() <= TURNS * PHASES {
             // One that stops ends its life with its turns; who runs them says so.
-            let Ok(end) = runner.end_of_turn(last) else { break };
-            ends.push(end);
+            let Ok(next) = runner.part_of_turn(last, part) else { break };
+            times.push(next);
+            (last, part) = (next, 1.0 / PHASES as f64);
         }
-        if ends.len() <= FEWEST {
+        if times.len() <= FEWEST * PHASES {
             return Ok(Self::EACH);
         }
-        let laws = Laws::of(runner, &ends);
+        let laws = Laws::of(runner, &times);
         laws.recurrence().ok_or_else(|| RunError::NeverAlike {
             turns: laws.turns.len(),
             what: "drives or forces that depend on the time do not repeat".to_owned(),
@@ -69,25 +72,26 @@ struct Laws {
 }
 
 impl Laws {
-    /// Of turns with these ends.
-    fn of(runner: &mut TurnRunner<'_>, ends: &[f64]) -> Self {
+    /// By times at which the driver is at the same parts of its turns. They are sharp where it moves; ends of turns, where it may rest, are
+    /// not.
+    fn of(runner: &mut TurnRunner<'_>, times: &[f64]) -> Self {
         let forwards = runner.speeds().to_vec();
         let backwards: Vec<f64> = forwards.iter().map(|speed| -speed).collect();
-        let latest = ends[ends.len() - 1];
-        let mut of_turn = |from: f64, to: f64| {
-            let mut values = vec![to - from];
-            for phase in 0..PHASES {
-                let t = from + (to - from) * ((phase as f64 + FIRST) / PHASES as f64);
+        let mut of_turn = |times: &[f64], later: f64| {
+            let mut values = vec![times[PHASES] - times[0]];
+            for (phase, t) in times[..PHASES].iter().enumerate() {
                 // Forces that act one way alone are met by speeds of both.
                 let speeds = if phase % 2 == 0 { &forwards } else { &backwards };
-                values.extend_from_slice(runner.accelerations_at(t, speeds));
+                values.extend_from_slice(runner.accelerations_at(t + later, speeds));
             }
             values
         };
-        let turns: Vec<Vec<f64>> = ends.windows(2).map(|pair| of_turn(pair[0], pair[1])).collect();
+        let count = (times.len() - 1) / PHASES;
+        let turns: Vec<Vec<f64>> =
+            (0..count).map(|turn| of_turn(&times[turn * PHASES..][..=PHASES], 0.0)).collect();
         // A time as late as the last has so many places.
-        let rounding = 4.0 * f64::EPSILON * latest.abs();
-        let beside = of_turn(ends[0] + rounding, ends[1] + rounding);
+        let rounding = 4.0 * f64::EPSILON * times[times.len() - 1].abs();
+        let beside = of_turn(&times[..=PHASES], rounding);
         let kinds = (beside.len() - 1) / PHASES;
         let largest = |kind: usize| {
             let of_turn = |turn: &Vec<f64>| {

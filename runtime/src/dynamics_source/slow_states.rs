@@ -96,15 +96,22 @@ impl SlowStates {
             let is_steady = factor.zip(known).is_some_and(|(factor, known)| {
                 (SLOW..1.0).contains(&factor) && (factor - known).abs() <= STEADY * (1.0 - factor)
             });
+            let rest = (way.place, runner.speed(way.place) + left);
+            // What only counts, such as a work, goes on for ever and moves nothing.
+            if is_even && effect(runner, &[rest]) <= settled {
+                continue;
+            }
             all_steady &= is_steady;
-            rests.push((way.place, runner.speed(way.place) + left));
+            rests.push(rest);
         }
         if rests.is_empty() || effect(runner, &rests) <= settled {
             return Ok(true);
         }
         self.waited += 1;
-        let endless = self.ways.iter().find(|way| way.endless >= ENDLESS);
-        let endless = endless.filter(|way| effect(runner, &rests_of(way.place, &rests)) > settled);
+        let endless = self
+            .ways
+            .iter()
+            .find(|way| way.endless >= ENDLESS && rests.iter().any(|rest| rest.0 == way.place));
         if self.waited > LONGEST || endless.is_some() {
             let place = endless.map_or(rests[0].0, |way| way.place);
             let what =
@@ -129,15 +136,10 @@ impl SlowStates {
     }
 }
 
-/// Where one state would come to rest.
-fn rests_of(place: usize, rests: &[(usize, f64)]) -> Vec<(usize, f64)> {
-    rests.iter().copied().filter(|(other, _)| *other == place).collect()
-}
-
 /// By which part of themselves accelerations change with these speeds in place of the present ones, of all that moves.
 fn effect(runner: &mut TurnRunner<'_>, speeds: &[(usize, f64)]) -> f64 {
     let begin = runner.t();
-    let Ok(end) = runner.end_of_turn(begin) else { return 0.0 };
+    let Ok(end) = runner.part_of_turn(begin, 1.0) else { return 0.0 };
     let now = runner.speeds().to_vec();
     let mut then = now.clone();
     speeds.iter().for_each(|(place, value)| then[*place] = *value);

@@ -46,6 +46,15 @@ impl Schedule {
         Ok(Self { begin, start: begin, end, samples: 0 })
     }
 
+    /// When the turn driver has made a part of a turn from `begin` on.
+    pub(super) fn part_of_turn(
+        evaluator: &mut Evaluator<'_>,
+        begin: f64,
+        part: f64,
+    ) -> Result<f64, RunError> {
+        end_of_turns(evaluator, begin, part, LONGEST_SEARCH)
+    }
+
     /// End of the turn that begins at `from`; nothing beyond the end of the run. If a sample or the end is due
     /// there but for rounding, it is that time: no step of a last bit is left over.
     pub(super) fn end_of_turn(&self, evaluator: &mut Evaluator<'_>, from: f64) -> Option<f64> {

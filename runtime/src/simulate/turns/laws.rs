@@ -8,12 +8,12 @@ use crate::error::RunError;
 use crate::simulate::schedule::Schedule;
 
 impl TurnRunner<'_> {
-    /// End of the turn that begins at a time [s].
+    /// When the driver has made a part of a turn from a time [s] on.
     ///
     /// # Errors
-    /// [`RunError::TurnsNotReached`] if the driver does not get round.
-    pub(crate) fn end_of_turn(&mut self, from: f64) -> Result<f64, RunError> {
-        Schedule::turn(&mut self.motion.dynamics.evaluator, from).map(|turn| turn.end)
+    /// [`RunError::TurnsNotReached`] if it does not.
+    pub(crate) fn part_of_turn(&mut self, from: f64, part: f64) -> Result<f64, RunError> {
+        Schedule::part_of_turn(&mut self.motion.dynamics.evaluator, from, part)
     }
 
     /// Present time [s].
