@@ -87,8 +87,8 @@ pub const COMMANDS: &[Command] = &[
     Command {
         code: "C0010",
         title: "A life that cannot be lived to its end.",
-        text: "No joint wears, wear stands still, a cycle passes the whole threshold at once, none of 100,000 cycles passes it, or \
-               the clearance outgrows what the mechanism can run with. A cycle stands for `revolutions_per_cycle` revolutions, 1 unless \
+        text: "No joint wears, wear stands still, a cycle passes the whole threshold at once, none of 100,000 cycles passes it, \
+               the clearance outgrows what the mechanism can run with, or loads never repeat, so that no turn stands for others. A cycle stands for `revolutions_per_cycle` revolutions, 1 unless \
                [wear] says otherwise; 10 to 100 cycles to the end are good.",
         wrong: "linkwear life mechanisms/four_bar.toml",
         right: "linkwear life mechanisms/rssr.toml --trajectories 10",
