@@ -16,6 +16,7 @@ mod step_code;
 
 pub use answers::{Accelerations, Closure, Equations, Forward, LoopError, Rates};
 pub use closed::{CLOSED, CLOSED_AT_START};
+pub(crate) use closure::put_back;
 
 use crate::clearance_joint::{Clearances, ContactState};
 use crate::description::Description;

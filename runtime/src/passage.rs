@@ -9,7 +9,7 @@
 //! Forces may grow without bounds on the way there, as the inverse of the distance, with opposite signs on both sides. Half
 //! the difference of both sides tells: it doubles with the distance if the force is smooth, and halves if it has such a pole.
 
-use crate::evaluate::{Evaluator, Forward};
+use crate::evaluate::{Evaluator, Forward, put_back};
 use crate::linear::largest;
 use crate::projection::Projector;
 
@@ -131,8 +131,7 @@ impl Passage {
         self.limit.values.fill(0.0);
         self.columns = columns;
         let found = self.look_beside(evaluator, (t, q, v), judge);
-        let mut kept = memory.iter();
-        evaluator.visit_memory(&mut |number| *number = kept.next().copied().unwrap_or(*number));
+        evaluator.visit_memory(&mut put_back(&memory));
         self.memory = memory;
         evaluator.evaluate_contacts(t, q, v);
         found.map(|()| &self.limit)

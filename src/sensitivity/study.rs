@@ -102,7 +102,13 @@ impl<'s> SensitivityStudy<'s> {
             .map_err(|error| SensitivityError::Wear(error.to_string()))?;
         let settings = LifeSettings::new(base.joints.clone());
         watch.begin("path");
-        let wears = with_source(&mechanism, |source| self.wears(&base, &settings, source))?;
+        let wears = with_source(&mechanism, |source| {
+            let turns = source.turns_to_repeat()?;
+            if turns > 1 {
+                return Err(SensitivityError::SeveralTurns { turns });
+            }
+            self.wears(&base, &settings, source)
+        })?;
         watch.begin("turns");
         let survey = Survey {
             variant: &base,

@@ -93,10 +93,6 @@ impl Variant {
         let settings = RevolutionSettings::default();
         let mut source = DynamicsSource::new(system.on_numbers(), description, &parameters, settings)?;
         let turn = source.seconds_per_revolution()?.ok_or(SensitivityError::UnevenTurns)?;
-        let turns = source.turns_to_repeat()?;
-        if turns > 1 {
-            return Err(SensitivityError::SeveralTurns { turns });
-        }
         let joints = source.joints()?;
         if joints.is_empty() {
             return Err(SensitivityError::NothingWears);

@@ -10,7 +10,7 @@ use core::ops::Range;
 
 use super::newton::Newton;
 use crate::error::AssemblyError;
-use crate::evaluate::Evaluator;
+use crate::evaluate::{Evaluator, put_back};
 use crate::linear::{dot, largest};
 use crate::tables::Motion;
 
@@ -92,8 +92,8 @@ fn turned(newton: &mut Newton<'_, '_>, q: &[f64]) -> Option<Found> {
     let mut memory = Vec::new();
     newton.evaluator().visit_memory(&mut |number| memory.push(*number));
     let changes = newton.full_jacobian(q);
-    let (evaluator, mut memory) = (newton.evaluator(), memory.into_iter());
-    evaluator.visit_memory(&mut |number| *number = memory.next().unwrap_or(*number));
+    let evaluator = newton.evaluator();
+    evaluator.visit_memory(&mut put_back(&memory));
     let n = evaluator.sizes().speeds;
     let rows = &evaluator.description().rows;
     let of_joints: Vec<Range<usize>> = rows

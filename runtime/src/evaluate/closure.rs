@@ -42,3 +42,9 @@ impl Evaluator<'_> {
         Closure { positions, speeds, jacobian }
     }
 }
+
+/// What puts numbers back into the places that a visit shows, one after the other.
+pub(crate) fn put_back(numbers: &[f64]) -> impl FnMut(&mut f64) + '_ {
+    let mut numbers = numbers.iter();
+    move |place| *place = numbers.next().copied().unwrap_or(*place)
+}

@@ -173,20 +173,7 @@ impl Solutions {
         }
     }
 
-    /// Writes `values` with the weighted sum of as many solutions as there are weights added.
-    fn write(&self, weights: &[f64], values: &[f64], to: &mut [f64]) {
-        let (whole, rest) = values.as_chunks::<4>();
-        let (to_whole, to_rest) = to.as_chunks_mut::<4>();
-        let (blocks, last) = self.0.split_at(whole.len());
-        for ((to, values), block) in to_whole.iter_mut().zip(whole).zip(blocks) {
-            let sums = sums(weights, block);
-            *to = std::array::from_fn(|i| values[i] + sums[i]);
-        }
-        let sums = last.iter().flat_map(|block| sums(weights, block));
-        to_rest.iter_mut().zip(rest).zip(sums).for_each(|((to, value), sum)| *to = value + sum);
-    }
-
-    /// Adds the sum to `values`.
+    /// Adds the weighted sum of as many solutions as there are weights.
     fn add(&self, weights: &[f64], values: &mut [f64]) {
         let (whole, rest) = values.as_chunks_mut::<4>();
         let (blocks, last) = self.0.split_at(whole.len());
@@ -249,7 +236,8 @@ impl Method for Rodas5P {
         system.factor(GAMMA * step.length);
         let per_step = 1.0 / step.length;
         for stage in 0..8 {
-            solutions.write(&A[stage][..stage], step.y, next);
+            next.copy_from_slice(step.y);
+            solutions.add(&A[stage][..stage], next);
             if stage == 0 {
                 right.copy_from_slice(begin);
             } else {

@@ -15,22 +15,22 @@ const WRONG: f64 = 1.0;
 
 /// Watches all bodies of one run.
 #[derive(Clone, Debug)]
-pub(super) struct Bends {
-    bodies: Vec<Bend>,
+pub(super) struct Bends<'a> {
+    bodies: Vec<Bend<'a>>,
 }
 
 #[derive(Clone, Debug)]
-struct Bend {
-    info: BendInfo,
+struct Bend<'a> {
+    info: &'a BendInfo,
     /// Of every mode, the largest displacement of a place per unit [m].
     sizes: Vec<f64>,
     /// Largest deflection so far that is doubtful [m].
     most: At,
 }
 
-impl Bends {
-    pub(super) fn new(description: &Description) -> Self {
-        let bend = |info: &BendInfo| {
+impl<'a> Bends<'a> {
+    pub(super) fn new(description: &'a Description) -> Self {
+        let bend = |info: &'a BendInfo| {
             let places = info.shapes.as_chunks::<3>().0.iter().enumerate();
             let mut sizes = vec![0.0_f64; info.modes];
             for (at, shape) in places {
@@ -38,7 +38,7 @@ impl Bends {
                 *size = size.max(length(*shape));
             }
             let most = At { value: DOUBTFUL * info.length, t: f64::NAN };
-            Bend { info: info.clone(), sizes, most }
+            Bend { info, sizes, most }
         };
         let bends = description.bends.iter().filter(|info| info.length > 0.0 && info.modes > 0);
         Self { bodies: bends.map(bend).collect() }
@@ -102,7 +102,7 @@ mod tests {
         let info = BendInfo { body: "b".into(), length: 2.0, first: 1, modes: 2, shapes: shapes.into() };
         let mut bends = Bends { bodies: Vec::new() };
         let sizes = vec![2.0, 3.0];
-        bends.bodies.push(Bend { info, sizes, most: At { value: 0.2, t: f64::NAN } });
+        bends.bodies.push(Bend { info: &info, sizes, most: At { value: 0.2, t: f64::NAN } });
         assert_eq!(bends.note(0.1, &[9.0, 0.1, 0.0]), Ok(()));
         assert_eq!(bends.warnings().count(), 0);
         assert_eq!(bends.note(0.2, &[9.0, 0.2, 0.1]), Ok(()));

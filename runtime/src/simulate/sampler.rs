@@ -46,7 +46,7 @@ pub(super) struct Sampler<'a> {
     turning: Vec<bool>,
     guard: Guard,
     unbounded: Unbounded,
-    bends: Bends,
+    bends: Bends<'a>,
     pub(super) passages: Passages,
     /// Where the extremes of a run go, if anybody asks for them.
     extremes: Option<Collector>,

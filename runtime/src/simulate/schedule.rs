@@ -42,7 +42,7 @@ impl Schedule {
 
     /// One turn of the turn driver from `begin`, without samples.
     pub(super) fn turn(evaluator: &mut Evaluator<'_>, begin: f64) -> Result<Self, RunError> {
-        let end = end_of_turns(evaluator, begin, 1.0, LONGEST_SEARCH)?;
+        let end = Self::part_of_turn(evaluator, begin, 1.0)?;
         Ok(Self { begin, start: begin, end, samples: 0 })
     }
 

@@ -18,7 +18,7 @@ use crate::clearance_joint::{ClearanceState, ContactState};
 use crate::description::{Channel, Description};
 use crate::dynamics::Dynamics;
 use crate::error::{RunError, SetupError};
-use crate::evaluate::Evaluator;
+use crate::evaluate::{Evaluator, put_back};
 use crate::guide::Guide;
 use crate::integrate::Problem;
 use crate::system::System;
@@ -377,13 +377,13 @@ impl<'a> Simulation<'a> {
         self.motion.dynamics.evaluator.set_parameters(&kept.parameters)?;
         self.t = kept.t;
         let (own_memory, motion_memory) = kept.memory.split_at(own);
-        self.visit_memory(&mut put(own_memory));
+        self.visit_memory(&mut put_back(own_memory));
         self.motion.dynamics.evaluator.clearances_mut().states_mut().clone_from_slice(&kept.joints);
         self.sampler.angles.put_back(&kept.angles);
-        self.motion.visit_sizes_and_memory(&mut put(motion_memory));
+        self.motion.visit_sizes_and_memory(&mut put_back(motion_memory));
         self.sampler.resume(&mut self.motion);
         // Once more: looking at the state has changed what solvers remember.
-        self.motion.visit_sizes_and_memory(&mut put(motion_memory));
+        self.motion.visit_sizes_and_memory(&mut put_back(motion_memory));
         Ok(())
     }
 
@@ -398,10 +398,4 @@ impl<'a> Simulation<'a> {
     pub fn finish(self) -> Run {
         self.sampler.finish(&self.motion, step_limits(self.integrator), None)
     }
-}
-
-/// What writes numbers into the places that it is shown, one after the other.
-fn put(numbers: &[f64]) -> impl FnMut(&mut f64) + '_ {
-    let mut numbers = numbers.iter();
-    move |place| *place = numbers.next().copied().unwrap_or(*place)
 }

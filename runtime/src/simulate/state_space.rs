@@ -11,7 +11,7 @@ use crate::clearance_joint::ContactState;
 use crate::description::{Channel, Description};
 use crate::dynamics::Dynamics;
 use crate::error::{RunError, SetupError};
-use crate::evaluate::Evaluator;
+use crate::evaluate::{Evaluator, put_back};
 use crate::integrate::Problem;
 use crate::linear::largest;
 use crate::system::System;
@@ -276,8 +276,7 @@ impl<'a> StateSpace<'a> {
         evaluator.evaluate_contacts(self.t, q, v);
         self.contacts.copy_from_slice(evaluator.clearances().contacts());
         self.sampler.angles.put_back(&kept.angles);
-        let mut memory = memory.iter();
-        self.motion.visit_sizes_and_memory(&mut |number| *number = memory.next().copied().unwrap_or(*number));
+        self.motion.visit_sizes_and_memory(&mut put_back(memory));
         self.sampled = false;
         Ok(())
     }

@@ -21,7 +21,7 @@ use crate::clearance_joint::{Clearance, ClearanceState};
 use crate::description::Description;
 use crate::dynamics::Dynamics;
 use crate::error::{RunError, SetupError};
-use crate::evaluate::Evaluator;
+use crate::evaluate::{Evaluator, put_back};
 use crate::linear::largest;
 use crate::system::System;
 use crate::watch::Watch;
@@ -146,8 +146,7 @@ impl<'a> TurnRunner<'a> {
         same("joints with clearance", sizes.contacts, kept.joints.len())?;
         let joints = self.motion.dynamics.evaluator.clearances_mut().states_mut();
         joints.clone_from_slice(&kept.joints);
-        let mut memory = kept.memory.iter();
-        self.motion.visit_memory(&mut |number| *number = memory.next().copied().unwrap_or(*number));
+        self.motion.visit_memory(&mut put_back(&kept.memory));
         (self.t, self.state) = (kept.t, State { q: kept.q.clone(), v: kept.v.clone() });
         self.motion.learn_sizes(self.t, &self.state);
         Ok(())
