@@ -33,7 +33,10 @@ impl ModalData {
 /// Replaces each magnitude by that of the first entry of the table in its group. A group is measured from its smallest,
 /// so that a chain of neighbours does not grow.
 pub(super) fn share_magnitudes<'a>(table: impl Iterator<Item = &'a mut f64>) {
-    let mut entries: Vec<(usize, &mut f64)> = table.enumerate().collect();
+    share(table.enumerate().collect());
+}
+
+fn share(mut entries: Vec<(usize, &mut f64)>) {
     let largest = entries.iter().fold(0.0, |largest: f64, (_, entry)| largest.max(entry.abs()));
     entries.retain(|(_, entry)| entry.abs() > DUST * largest);
     entries.sort_by(|(i, a), (j, b)| a.abs().total_cmp(&b.abs()).then(i.cmp(j)));

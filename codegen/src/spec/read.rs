@@ -5,17 +5,19 @@
 //! list of entries to skip, and the whole is read again without it; every field of the file is optional.
 
 use std::cell::RefCell;
+use std::slice;
 
-use serde::de::value::{MapAccessDeserializer, MapDeserializer, SeqDeserializer, StrDeserializer};
+use serde::de::value::StrDeserializer;
 use serde::de::{
-    DeserializeSeed, Deserializer, Error, IntoDeserializer, MapAccess, SeqAccess, Unexpected, Visitor,
+    DeserializeSeed, Deserializer, EnumAccess, Error, Expected, IntoDeserializer, MapAccess, SeqAccess,
+    Unexpected, VariantAccess, Visitor,
 };
 use serde::{Deserialize, forward_to_deserialize_any};
 use toml::Spanned;
-use toml::de::{DeTable, DeValue};
+use toml::de::{DeFloat, DeInteger, DeTable, DeValue};
 
 use super::failure::{self, Failure};
-use super::written::{BY_FORM, WITH_SPAN};
+use super::written::BY_FORM;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::source::Span;
 
@@ -65,35 +67,49 @@ struct Reader<'a, 'i> {
     notes: &'a RefCell<Notes>,
 }
 
-impl<'de> IntoDeserializer<'de, Failure> for Reader<'_, '_> {
-    type Deserializer = Self;
-    fn into_deserializer(self) -> Self {
-        self
+impl<'a, 'i> Reader<'a, 'i> {
+    fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
+        let result = match self.value.get_ref() {
+            DeValue::Table(table) => visitor.visit_map(Entries::new(table, None, self.notes)),
+            DeValue::Array(items) => visitor.visit_seq(Items { rest: items.iter(), notes: self.notes }),
+            DeValue::String(text) => visitor.visit_str(text),
+            DeValue::Boolean(value) => visitor.visit_bool(*value),
+            DeValue::Integer(number) => integer(number).and_then(|value| visitor.visit_i64(value)),
+            DeValue::Float(number) => float(number).and_then(|value| visitor.visit_f64(value)),
+            DeValue::Datetime(_) => return Err(self.not(&visitor)),
+        };
+        self.placed(result)
+    }
+
+    /// A result whose error knows its place.
+    fn placed<T>(self, result: Result<T, Failure>) -> Result<T, Failure> {
+        match result {
+            Err(failure) => Err(self.place(failure)),
+            right => right,
+        }
+    }
+
+    fn place(self, failure: Failure) -> Failure {
+        failure.or_at(extent(self.value))
+    }
+
+    /// The value is not what is needed.
+    fn not(self, needed: &dyn Expected) -> Failure {
+        self.place(Failure::invalid_type(unexpected(self.value.get_ref()), needed))
+    }
+
+    fn entries(self, table: &'a DeTable<'i>, fields: Option<&[&str]>) -> Entries<'a, 'i> {
+        Entries::new(table, fields, self.notes)
     }
 }
 
-impl Reader<'_, '_> {
-    fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
-        let Self { value, notes } = self;
-        let result = match value.get_ref() {
-            DeValue::Table(table) => visitor.visit_map(Entries::new(table, None, notes)),
-            DeValue::Array(items) => {
-                visitor.visit_seq(SeqDeserializer::new(items.iter().map(|value| Reader { value, notes })))
-            }
-            DeValue::String(text) => visitor.visit_str(text),
-            DeValue::Boolean(value) => visitor.visit_bool(*value),
-            DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
-                Ok(value) => visitor.visit_i64(value),
-                Err(_) => Err(Failure::custom("an integer that does not fit into 64 bits").advise(LARGE)),
-            },
-            DeValue::Float(number) => match number.as_str().parse() {
-                Ok(value) => visitor.visit_f64(value),
-                Err(_) => Err(Failure::custom("a number that cannot be read").advise(LARGE)),
-            },
-            other @ DeValue::Datetime(_) => Err(Failure::invalid_type(unexpected(other), &visitor)),
-        };
-        result.map_err(|failure| failure.or_at(extent(value)))
-    }
+fn integer(number: &DeInteger<'_>) -> Result<i64, Failure> {
+    i64::from_str_radix(number.as_str(), number.radix())
+        .map_err(|_| Failure::custom("an integer that does not fit into 64 bits").advise(LARGE))
+}
+
+fn float(number: &DeFloat<'_>) -> Result<f64, Failure> {
+    number.as_str().parse().map_err(|_| Failure::custom("a number that cannot be read").advise(LARGE))
 }
 
 /// What was found where something else is needed.
@@ -124,31 +140,36 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
     fn deserialize_newtype_struct<V: Visitor<'de>>(self, _: &str, visitor: V) -> Result<V::Value, Failure> {
         visitor.visit_newtype_struct(self)
     }
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
+        match self.value.get_ref() {
+            DeValue::Array(items) => {
+                self.placed(visitor.visit_seq(Items { rest: items.iter(), notes: self.notes }))
+            }
+            _ => Err(self.not(&visitor)),
+        }
+    }
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
+        match self.value.get_ref() {
+            DeValue::Table(table) => self.placed(visitor.visit_map(self.entries(table, None))),
+            _ => Err(self.not(&visitor)),
+        }
+    }
     fn deserialize_struct<V: Visitor<'de>>(
         self,
         _: &'static str,
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Failure> {
-        let Self { value, notes } = self;
-        let result = match value.get_ref() {
-            DeValue::Table(table) => visitor.visit_map(Entries::new(table, Some(fields), notes)),
+        match self.value.get_ref() {
+            DeValue::Table(table) => self.placed(visitor.visit_map(self.entries(table, Some(fields)))),
             // A list would be read by the order of the fields in our source, which is nobody's business.
-            other => Err(Failure::invalid_type(unexpected(other), &visitor)),
-        };
-        result.map_err(|failure| failure.or_at(extent(value)))
-    }
-    fn deserialize_tuple_struct<V: Visitor<'de>>(
-        self,
-        name: &str,
-        _: usize,
-        visitor: V,
-    ) -> Result<V::Value, Failure> {
-        if name != WITH_SPAN {
-            return self.visit(visitor);
+            _ => Err(self.not(&visitor)),
         }
+    }
+    /// The value with its place: the only such struct is [`super::written::At`].
+    fn deserialize_tuple_struct<V: Visitor<'de>>(self, _: &str, _: usize, v: V) -> Result<V::Value, Failure> {
         let span = extent(self.value);
-        visitor.visit_seq(Parts { head: vec![span.end, span.start], value: Some(self) })
+        v.visit_seq(Parts { head: vec![span.end, span.start], value: Some(self) })
     }
     fn deserialize_enum<V: Visitor<'de>>(
         self,
@@ -159,19 +180,69 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
         let form = match self.value.get_ref() {
             DeValue::String(text) if name != BY_FORM => {
                 let text: StrDeserializer<'_, Failure> = text.as_ref().into_deserializer();
-                return visitor.visit_enum(text).map_err(|failure| failure.or_at(extent(self.value)));
+                return self.placed(visitor.visit_enum(text));
             }
-            _ if name != BY_FORM => return self.visit(visitor),
+            _ if name != BY_FORM => return Err(self.not(&visitor)),
             DeValue::Table(_) => "table",
             DeValue::Array(_) => "list",
             _ => "scalar",
         };
-        let variant = MapDeserializer::new(std::iter::once((form, self)));
-        visitor.visit_enum(MapAccessDeserializer::new(variant))
+        visitor.visit_enum(ByForm { form, value: self })
     }
     forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf unit unit_struct seq tuple
-        map identifier ignored_any
+        bool i8 i16 i32 i64 u8 u16 u32 u64 f32 f64 char str string bytes byte_buf unit unit_struct tuple
+        identifier ignored_any
+    }
+}
+
+/// A value as the variant that its form names.
+struct ByForm<'a, 'i> {
+    form: &'static str,
+    value: Reader<'a, 'i>,
+}
+
+impl<'de, 'a, 'i> EnumAccess<'de> for ByForm<'a, 'i> {
+    type Error = Failure;
+    type Variant = Reader<'a, 'i>;
+    fn variant_seed<V: DeserializeSeed<'de>>(self, seed: V) -> Result<(V::Value, Reader<'a, 'i>), Failure> {
+        let form: StrDeserializer<'_, Failure> = self.form.into_deserializer();
+        Ok((seed.deserialize(form)?, self.value))
+    }
+}
+
+impl<'de> VariantAccess<'de> for Reader<'_, '_> {
+    type Error = Failure;
+    fn unit_variant(self) -> Result<(), Failure> {
+        Err(self.not(&"a value"))
+    }
+    fn newtype_variant_seed<T: DeserializeSeed<'de>>(self, seed: T) -> Result<T::Value, Failure> {
+        seed.deserialize(self)
+    }
+    fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Failure> {
+        self.deserialize_seq(visitor)
+    }
+    fn struct_variant<V: Visitor<'de>>(
+        self,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Failure> {
+        self.deserialize_struct("", fields, visitor)
+    }
+}
+
+/// The values of a list.
+struct Items<'a, 'i> {
+    rest: slice::Iter<'a, Spanned<DeValue<'i>>>,
+    notes: &'a RefCell<Notes>,
+}
+
+impl<'de> SeqAccess<'de> for Items<'_, '_> {
+    type Error = Failure;
+    fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Failure> {
+        match self.rest.next() {
+            Some(value) => seed.deserialize(Reader { value, notes: self.notes }).map(Some),
+            None => Ok(None),
+        }
     }
 }
 
@@ -187,7 +258,10 @@ impl<'de, R: Deserializer<'de, Error = Failure>> SeqAccess<'de> for Parts<R> {
         if let Some(fact) = self.head.pop() {
             return seed.deserialize(fact.into_deserializer()).map(Some);
         }
-        self.value.take().map(|value| seed.deserialize(value)).transpose()
+        match self.value.take() {
+            Some(value) => seed.deserialize(value).map(Some),
+            None => Ok(None),
+        }
     }
 }
 
@@ -249,18 +323,23 @@ impl<'de> MapAccess<'de> for Entries<'_, '_> {
         let Some(Entry { key, key_span, value }) = self.value.take() else {
             return Err(Failure::custom("a key without a value"));
         };
+        match seed.deserialize(Reader { value, notes: self.notes }) {
+            Err(failure) if !failure.reported => Err(self.report(failure, key, key_span, value)),
+            result => result,
+        }
+    }
+}
+
+impl Entries<'_, '_> {
+    /// Puts a fault among the diagnostics and its value among those to skip.
+    fn report(&self, failure: Failure, key: &str, key_span: Span, value: &Spanned<DeValue<'_>>) -> Failure {
         let span = value.span().into();
-        seed.deserialize(Reader { value, notes: self.notes }).map_err(|failure| {
-            if failure.reported {
-                return failure;
-            }
-            let failure = failure.under(key).at_key(key_span);
-            let mut notes = self.notes.borrow_mut();
-            notes.diagnostics.push(failure.diagnostic(span));
-            notes.skipped.push(span);
-            notes.lost.push(key.to_owned());
-            Failure::already_reported()
-        })
+        let failure = failure.under(key).at_key(key_span);
+        let mut notes = self.notes.borrow_mut();
+        notes.diagnostics.push(failure.diagnostic(span));
+        notes.skipped.push(span);
+        notes.lost.push(key.to_owned());
+        Failure::already_reported()
     }
 }
 

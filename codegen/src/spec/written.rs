@@ -9,18 +9,17 @@ use std::marker::PhantomData;
 #[cfg(test)]
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, MapAccess, Visitor};
+use serde::de::{Deserializer, Error, MapAccess, SeqAccess, Visitor};
 
 use crate::source::Span;
 
 /// Name of a tuple struct by which the reader is asked for (start, end, value).
-pub(super) const WITH_SPAN: &str = "$linkwear::At";
+const WITH_SPAN: &str = "$linkwear::At";
 /// Name of an enum by which the reader is asked for a value as the variant `scalar`, `list` or `table`, by its form.
 pub(super) const BY_FORM: &str = "$linkwear::ByForm";
 
 /// A value and where it is written.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
-#[serde(from = "Parts<T>")]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct At<T> {
     /// Where.
     pub span: Span,
@@ -28,13 +27,25 @@ pub struct At<T> {
     pub value: T,
 }
 
-#[derive(Deserialize)]
-#[serde(rename = "$linkwear::At")]
-struct Parts<T>(usize, usize, T);
-
-impl<T> From<Parts<T>> for At<T> {
-    fn from(Parts(start, end, value): Parts<T>) -> Self {
-        Self { span: Span { start, end }, value }
+// By hand: what a derive writes for a hundred types takes a sixth of reading to compile.
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for At<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Parts<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Parts<T> {
+            type Value = At<T>;
+            fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+                formatter.write_str("a value with its place")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut parts: A) -> Result<At<T>, A::Error> {
+                if let (Some(start), Some(end)) = (parts.next_element()?, parts.next_element()?)
+                    && let Some(value) = parts.next_element()?
+                {
+                    return Ok(At { span: Span { start, end }, value });
+                }
+                Err(A::Error::custom("a value without its place"))
+            }
+        }
+        deserializer.deserialize_tuple_struct(WITH_SPAN, 3, Parts(PhantomData))
     }
 }
 
