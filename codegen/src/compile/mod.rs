@@ -168,9 +168,11 @@ fn try_out(compiled: &Compiled, waypoints: &[Waypoint]) -> Result<Vec<Diagnostic
     }
     let system = compiled.interpreter_at_hand();
     preflight::check_prescribed(source, mechanism, description, &*system)?;
+    let mut remarks = preflight::fast_drives(mechanism, description, &*system);
     let start = preflight::check_start(source, mechanism, description, &*system)?;
     let near = start.map(|start| preflight::contacts_near_modes(mechanism, start, waypoints));
-    Ok(near.unwrap_or_default())
+    remarks.extend(near.unwrap_or_default());
+    Ok(remarks)
 }
 
 fn analyse(source: &SourceFile, mechanism: &Mechanism, topology: &Topology) -> Result<Findings, Diagnostics> {

@@ -230,6 +230,8 @@ codes! {
     HeldElsewhere = "W0123",
     /// A link of linear shapes that turns fast beside its first frequency.
     FastForOrder1 = "W0124",
+    /// A drive or a start value of a speed that no material stands.
+    TooFast = "W0140",
 }
 
 impl Code {

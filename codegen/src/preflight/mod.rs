@@ -11,6 +11,7 @@ mod contact_resonance;
 mod course;
 mod exactness;
 mod failures;
+mod fast;
 mod friction;
 mod idle;
 mod immobile;
@@ -40,6 +41,7 @@ pub use case::{Case, released};
 pub use contact_resonance::contacts_near_modes;
 pub use course::Waypoint;
 pub use failures::beyond_numbers;
+pub use fast::fast_drives;
 pub use own_units::OwnUnits;
 pub use prescribed::check_prescribed;
 pub use start::{assembled, check_start};
@@ -141,6 +143,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
     warnings.extend(plausible::remarks(mechanism, &analysis));
+    warnings.extend(fast::fast_starts(mechanism));
     warnings.extend(friction::remarks(mechanism, &analysis));
     let course = Course::follow(case, &positions, analysis.idle.len());
     if let Some(course) = &course {

@@ -60,7 +60,7 @@ pub fn remarks(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Diagnostic> {
 }
 
 /// A number with four digits, which is what people compare.
-fn shown(number: f64) -> f64 {
+pub(super) fn shown(number: f64) -> f64 {
     format!("{number:.3e}").parse().unwrap_or(number)
 }
 
@@ -80,7 +80,7 @@ fn odd(code: Code, span: Span, message: String, help: &str) -> Diagnostic {
 }
 
 /// Largest distance of the points at which a body is described or held [m].
-fn length(mechanism: &Mechanism, body: usize) -> f64 {
+pub(super) fn length(mechanism: &Mechanism, body: usize) -> f64 {
     let carrier = Carrier::Body(BodyId::new(body));
     let joints = mechanism.joints.iter().filter(|joint| joint.parent == carrier || joint.child == carrier);
     let points = joints.map(|joint| joint.at).chain(mechanism.bodies[body].inertia.points());

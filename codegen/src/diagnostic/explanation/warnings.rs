@@ -351,4 +351,14 @@ P = { at = ["1 m", "-0.5 m", 0], on = "ground" }
 [forces]
 coil = { spring = ["ground", "bar"], at = ["P", "A"], stiffness = "2 kN/m", length = "500 mm" }"#,
     },
+    Explanation {
+        code: Code::TooFast,
+        file: File::Swing,
+        text: "A drive or a start value turns a body so fast that its end moves with more than 4 km/s, or slides with more \
+               than 20 km/s. The strongest fibres burst at 2 km/s: a unit or an exponent is wrong.",
+        wrong: r#"[initial]
+hinge = { v = "2*pi*6e9 rpm" }"#,
+        right: r#"[initial]
+hinge = { v = "2*pi*600 rpm" }"#,
+    },
 ];
