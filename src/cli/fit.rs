@@ -272,6 +272,9 @@ fn cure(error: FitError, parameters: usize) -> &'static str {
             "convert wear and exposure to units in which their numbers are neither huge nor tiny"
         }
         FitError::NotConverged if parameters <= 2 => "look at the data; try another --process",
+        FitError::NotTold => {
+            "leave --power-law out where all readings lie in a narrow span of exposure, and all but one of the covariates that go together"
+        }
         FitError::NoScatter => {
             "no process is needed for wear that follows a line; if the gauge rounds, give its step by --resolution"
         }

@@ -22,6 +22,11 @@ pub enum FitError {
     /// Newton's method has not found a maximum.
     #[error("the likelihood has no maximum inside; a parameter runs off")]
     NotConverged,
+    /// What the increments say of the exponent or of a covariate's power is less than the rounding of what all say of it.
+    #[error(
+        "the readings do not tell the exponent, or the power of a covariate, apart from the other parameters"
+    )]
+    NotTold,
     /// Numbers whose squares and products may be no numbers.
     #[error(
         "wear or exposure grows by less than 1e-100 or more than 1e100 in its unit: no fit of such numbers was found"

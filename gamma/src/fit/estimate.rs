@@ -16,6 +16,11 @@ const MOST_ERROR: f64 = 100.0;
 /// Increments whose wear must be known beside those that are bounded: scatter is seen between them.
 const FEWEST_EXACT: usize = 2;
 
+/// Part of the information on an exponent or a power that has to be left beside the other parameters. Sums of the information, and
+/// logarithms of exposures that differ in their seventh digit, are known to some 1e-10 of themselves: a smaller part is rounding, and
+/// any value of the parameter as good as another.
+const LEAST_TOLD: f64 = 1e-9;
+
 /// Sizes of increments of wear and exposure between which products of a few are numbers.
 const SIZES: [f64; 2] = [1e-100, 1e100];
 
@@ -93,6 +98,10 @@ fn found(increments: &[Increment], model: &Model, near: Option<&[f64]>) -> Resul
     };
     let covariance = Factor::definite(&point.information).and_then(|factor| factor.inverse());
     let covariance = covariance.ok_or_else(|| unbounded(model, increments, &phi))?;
+    let is_told = |at: usize| covariance[at][at] * point.information[at][at] * LEAST_TOLD < 1.0;
+    if !(2..phi.len()).all(is_told) {
+        return Err(FitError::NotTold);
+    }
     Ok(Fit { model: *model, phi, covariance, log_likelihood: point.value, increments: count })
 }
 

@@ -10,7 +10,8 @@
 use super::drawn_falls::{DrawnFalls, EDGE};
 use super::error::FitError;
 use super::estimate::{Fit, follows};
-use super::interval::{ACCURACY, Interval, profile_interval};
+use super::few_increments::bartlett;
+use super::interval::{ACCURACY, Interval, profile_within};
 use super::maximise::{maximise, start};
 use super::model::Model;
 use crate::data::{Increment, Observations};
@@ -38,11 +39,11 @@ struct Top {
     is_inside: bool,
 }
 
-/// An interval at `level` for parameter `index` of [`Fit::parameters`]: that of [`profile_interval`], for the two parameters of the
-/// process with a critical value of its own where a gauge nearly hides the scatter.
+/// An interval at `level` for parameter `index` of [`Fit::parameters`]: that of [`super::profile_interval`]; of few increments with
+/// chi-square corrected, for the two parameters of the process with a critical value of its own where a gauge nearly hides the scatter.
 ///
 /// # Errors
-/// As [`profile_interval`].
+/// As [`super::profile_interval`].
 pub fn interval(
     fit: &Fit,
     observations: &Observations,
@@ -51,7 +52,8 @@ pub fn interval(
 ) -> Result<Interval, FitError> {
     let near = |phi: &[f64]| index < 2 && is_near(&fit.model, phi, &observations.increments);
     if !near(&fit.phi) {
-        let found = profile_interval(fit, observations, index, level)?;
+        let reach = libm::sqrt(chi_square(level) * bartlett(fit, observations, index));
+        let found = profile_within(fit, observations, index, reach)?;
         // What is told of the edge: where the upper end of the shape lies.
         let mut least = fit.phi.clone();
         let by = libm::log(found.high.min(f64::MAX)) - least[index.min(1)];

@@ -41,7 +41,16 @@ pub fn profile_interval(
     index: usize,
     level: f64,
 ) -> Result<Interval, FitError> {
-    let reach = normal_quantile(0.5 + 0.5 * level);
+    profile_within(fit, observations, index, normal_quantile(0.5 + 0.5 * level))
+}
+
+/// [`profile_interval`] up to where the signed root of the likelihood ratio is `reach`.
+pub(super) fn profile_within(
+    fit: &Fit,
+    observations: &Observations,
+    index: usize,
+    reach: f64,
+) -> Result<Interval, FitError> {
     let ends = [end(fit, observations, index, -reach)?, end(fit, observations, index, reach)?];
     let [low, high] = ends.map(|end| fit.model.natural(index, end));
     Ok(Interval { low, high })

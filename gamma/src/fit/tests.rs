@@ -4,11 +4,12 @@ use super::bootstrap::draw;
 use super::estimate::estimate_increments;
 use super::*;
 use crate::data::{Gauge, Increment, Observations, Reading, Rounding};
-use crate::process::{Gamma, InverseGaussian, Process, Wiener};
+use crate::process::{Gamma, InverseGaussian, PROCESSES, Process, Wiener};
 
 mod bootstrap_coverage;
 mod bounds;
 mod derivatives;
+mod not_told;
 mod rounded_units;
 mod sizes;
 mod units;
