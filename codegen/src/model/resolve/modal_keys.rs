@@ -62,6 +62,19 @@ impl Resolver<'_> {
         }
     }
 
+    /// Warns of masses of modes that are not those of their couplings.
+    pub(super) fn warn_modal_products(&mut self, file: &Name, data: &ModalData) {
+        let Some((modes, [mass, product])) = data.mass_beside_products() else { return };
+        let [one, other] = modes.map(|mode| &data.modes[mode].name);
+        let message = format!(
+            "the modal data `{}`: the mass of the modes `{one}` and `{other}` in `mass_matrix` is {mass:.4}, by their `coupling` {product:.4} of \
+             the masses of both",
+            file.value
+        );
+        self.refuse(Code::ModalMass, file.span, message)
+            .help("the mass is the trace of the coupling; which of them is wrong, the program knows that wrote the data");
+    }
+
     /// Of a rod, tube or box [m³].
     fn volume(&self, of: Bending<'_>) -> f64 {
         let (ends, area) = match &of.body.inertia {
