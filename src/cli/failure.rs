@@ -353,16 +353,21 @@ pub fn wrong_arguments(error: &clap::Error, format: Format) -> ExitCode {
             _ => ExitCode::SUCCESS,
         };
     }
+    unread(error).report(format)
+}
+
+/// Arguments that clap could not read: what it says of them first, and the cure, in its words, which is all that follows.
+pub(super) fn unread(error: &clap::Error) -> Failure {
     let text = error.render().to_string();
-    let message = match error.kind() {
-        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
-        _ => first_paragraph(&text),
+    let (message, help) = match error.kind() {
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => ("no subcommand given".to_owned(), &*text),
+        _ => (first_paragraph(&text), text.split_once("\n\n").map_or("", |(_, rest)| rest)),
     };
-    Failure::usage(message, text.trim_end()).report(format)
+    Failure::usage(message, help.trim())
 }
 
 /// What clap says before its usage lines, in one line.
-pub(super) fn first_paragraph(text: &str) -> String {
+fn first_paragraph(text: &str) -> String {
     let lines = text.lines().map(str::trim).take_while(|line| !line.is_empty());
     lines.collect::<Vec<_>>().join(" ").trim_start_matches("error: ").to_owned()
 }
