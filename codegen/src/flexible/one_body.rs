@@ -74,18 +74,17 @@ impl ModalData {
         (0..3).map(|i| self.coupling[k][l][i][i]).sum()
     }
 
-    /// The two modes whose mass is farthest from the trace of their products, and both numbers over the masses of the two modes alone;
-    /// nothing where they agree.
+    /// The two modes whose mass is farthest from the trace of their products, beside the masses of each alone, and both numbers
+    /// [kg m²/q²]; nothing where they agree.
     pub(crate) fn mass_beside_products(&self) -> Option<([usize; 2], [f64; 2])> {
         let n = self.mode_count();
         let pairs = (0..n).flat_map(|k| (k..n).map(move |l| [k, l]));
-        let found = pairs.map(|[k, l]| {
+        let apart = |[k, l]: [usize; 2]| {
             let scale = (self.mass_matrix[k][k] * self.mass_matrix[l][l]).sqrt();
-            ([k, l], [self.mass_matrix[k][l] / scale, self.product(k, l) / scale])
-        });
-        let apart = |[mass, product]: [f64; 2]| (mass - product).abs();
-        found
-            .filter(|(_, both)| apart(*both) > SAME_MASS)
-            .max_by(|(_, a), (_, b)| apart(*a).total_cmp(&apart(*b)))
+            (self.mass_matrix[k][l] - self.product(k, l)).abs() / scale
+        };
+        let [k, l] =
+            pairs.filter(|pair| apart(*pair) > SAME_MASS).max_by(|a, b| apart(*a).total_cmp(&apart(*b)))?;
+        Some(([k, l], [self.mass_matrix[k][l], self.product(k, l)]))
     }
 }

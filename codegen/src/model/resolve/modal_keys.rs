@@ -66,13 +66,13 @@ impl Resolver<'_> {
     pub(super) fn warn_modal_products(&mut self, file: &Name, data: &ModalData) {
         let Some((modes, [mass, product])) = data.mass_beside_products() else { return };
         let [one, other] = modes.map(|mode| &data.modes[mode].name);
+        let of = if one == other { format!("mode `{one}`") } else { format!("modes `{one}`, `{other}`") };
         let message = format!(
-            "the modal data `{}`: the mass of the modes `{one}` and `{other}` in `mass_matrix` is {mass:.4}, by their `coupling` {product:.4} of \
-             the masses of both",
+            "the modal data `{}`: `mass_matrix` has {mass:.6} for {of}, and the trace of their `coupling` is {product:.6}",
             file.value
         );
         self.refuse(Code::ModalMass, file.span, message)
-            .help("the mass is the trace of the coupling; which of them is wrong, the program knows that wrote the data");
+            .help("the mass of modes is the trace of their coupling: have the data written again by the program that made them");
     }
 
     /// Of a rod, tube or box [m³].
