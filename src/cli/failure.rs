@@ -353,21 +353,16 @@ pub fn wrong_arguments(error: &clap::Error, format: Format) -> ExitCode {
             _ => ExitCode::SUCCESS,
         };
     }
-    unread(error).report(format)
-}
-
-/// Arguments that clap could not read: what it says of them first, and the cure, in its words, which is all that follows.
-pub(super) fn unread(error: &clap::Error) -> Failure {
     let text = error.render().to_string();
-    let (message, help) = match error.kind() {
-        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => ("no subcommand given".to_owned(), &*text),
-        _ => (first_paragraph(&text), text.split_once("\n\n").map_or("", |(_, rest)| rest)),
+    let message = match error.kind() {
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
+        _ => first_paragraph(&text),
     };
-    Failure::usage(message, help.trim())
+    Failure::usage(message, text.trim_end()).report(format)
 }
 
 /// What clap says before its usage lines, in one line.
-fn first_paragraph(text: &str) -> String {
+pub(super) fn first_paragraph(text: &str) -> String {
     let lines = text.lines().map(str::trim).take_while(|line| !line.is_empty());
     lines.collect::<Vec<_>>().join(" ").trim_start_matches("error: ").to_owned()
 }

@@ -258,18 +258,3 @@ fn what_is_no_number_or_none_at_all_is_told_by_its_name() {
     let nothing = linkwear(&arguments);
     assert!(nothing.code == 1 && nothing.err.contains("there are no readings"), "{}", nothing.err);
 }
-
-#[test]
-fn the_help_of_a_usage_error_does_not_say_the_message_again() {
-    for (words, cure) in [
-        (&["simulate", "mechanisms/pendulum.toml", "--tim", "1"][..], "--time"),
-        (&["simulate"], "Usage: linkwear simulate"),
-        (&["simulate", "mechanisms/pendulum.toml", "--time", "-1"], "--help"),
-    ] {
-        let answer = linkwear(&[words, &["--format", "json"]].concat());
-        let error = &answer.errors()[0];
-        let [message, help] = ["message", "help"].map(|key| error[key].as_str().expect("a text"));
-        let first = message.split('\n').next().expect("a line");
-        assert!(!message.is_empty() && !help.contains(first) && help.contains(cure), "{message}\n{help}");
-    }
-}
