@@ -9,7 +9,7 @@ use linkwear_codegen::input::read_text;
 use linkwear_codegen::tape::ShortTapes;
 use linkwear_codegen::{Closure, Compiled, Diagnostics, Options, SourceFile, compile, limits};
 use linkwear_native::{NativeBundle, Refusal};
-use linkwear_runtime::{Description, StepPlan, System};
+use linkwear_runtime::{Description, SampledSignals, StepPlan, System};
 use serde_json::{Map, Value, json};
 use thiserror::Error;
 
@@ -191,6 +191,20 @@ impl Mechanism {
         provenance
     }
 
+    /// Names of the parameters that its options set, as `--set` does.
+    pub fn given(&self) -> impl Iterator<Item = &str> {
+        let set = self.origin.options.get(SET).and_then(Value::as_object);
+        set.into_iter().flat_map(|set| set.keys().map(String::as_str))
+    }
+
+    /// An input that its options set and that has samples, too, which count: its value would change nothing.
+    pub(crate) fn given_over_time(&self, signals: &SampledSignals) -> Option<&str> {
+        let inputs = || self.description.input_infos().enumerate();
+        let connects =
+            |name: &str| inputs().any(|(at, (info, _))| info.name == *name && signals.connects(at));
+        self.given().find(|name| connects(name))
+    }
+
     /// Its equations, for one thread.
     pub fn system(&self) -> Box<dyn System<f64>> {
         self.equations.system()
@@ -224,6 +238,9 @@ impl Mechanism {
     }
 }
 
+/// What results call the parameters that options set.
+const SET: &str = "set";
+
 /// What a mechanism's file is called beside a result.
 pub(crate) const MECHANISM: &str = "mechanism.toml";
 
@@ -243,7 +260,7 @@ pub fn told(options: &Options) -> Map<String, Value> {
     let entries = [
         ("closure", closure.map(Value::from)),
         ("rigid", rigid.then_some(Value::Bool(true))),
-        ("set", (!overrides.is_empty()).then(|| Value::Object(set()))),
+        (SET, (!overrides.is_empty()).then(|| Value::Object(set()))),
     ];
     entries.into_iter().filter_map(|(name, value)| Some((name.to_owned(), value?))).collect()
 }

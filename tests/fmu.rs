@@ -391,6 +391,27 @@ fn wrong_calls_are_told_and_nothing_breaks() {
 }
 
 #[test]
+fn values_that_cannot_be_stay_refused() {
+    let drive = |unpacked: &Unpacked, names: &[&str]| {
+        let parameters = &unpacked.compiled.description().parameters;
+        let reference = |name: &&str| {
+            let place = parameters.iter().position(|known| known.name == **name).expect("a parameter");
+            unpacked.variables().reference(Variable::Parameter(place)).to_string()
+        };
+        let references: Vec<String> = names.iter().map(reference).collect();
+        let references: Vec<&str> = references.iter().map(String::as_str).collect();
+        unpacked.drive(driver(true), "refused", (0.002, 1e-6, 2), &references);
+    };
+    drive(&Unpacked::new("rssr"), &["c0"]);
+    let path = "mechanisms/rssr.toml".to_owned();
+    let text =
+        fs::read_to_string(&path).expect("a mechanism").replace("radial = \"c0\"", "radial = \"c0 - less\"");
+    let text = text.replace("\nc0 = {", "\nless = { value = \"0 um\", tunable = true }\nc0 = {");
+    let two = compile(&SourceFile { name: path, text }, &Options::default()).expect("no errors");
+    drive(&Unpacked::of(two), &["c0", "less"]);
+}
+
+#[test]
 fn a_unit_is_the_same_bytes_every_time_and_tells_itself_from_others() {
     let (one, two) = (compiled("rssr_rigid"), compiled("pendulum"));
     assert_eq!(fmu::unit(&one), fmu::unit(&one));

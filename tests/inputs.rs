@@ -248,6 +248,29 @@ fn a_study_varies_inputs_beside_those_of_a_table() {
 }
 
 #[test]
+fn an_input_that_is_set_and_given_over_time_is_refused() {
+    let folder = Folder::new("inputs-set");
+    let (file, inputs) = (folder.path("m.toml"), folder.path("inputs.csv"));
+    std::fs::write(&file, WHEEL).unwrap();
+    std::fs::write(&inputs, "t [s],torque [N m]\n0,1\n1,1\n").unwrap();
+    let over_time = [&file, "--time", "1", "--inputs", &*inputs];
+    for words in [&["simulate"][..], &["study", "--vary", "brake=0 N m,1 N m", "--of", "final.R.v"]] {
+        let asked = |set: &str| linkwear(&[words, &over_time, &["--set", set, "--format", "json"]].concat());
+        let answer = asked("torque=3 N m");
+        let error = &answer.errors()[0];
+        assert_eq!((answer.code, error["code"].as_str()), (2, Some("C0001")), "{words:?}");
+        let told = format!("{} {}", error["message"], error["help"]);
+        assert!(told.contains("`torque` is set and given over time"), "{told}");
+        assert!(told.contains("--inputs") && told.contains("`--set torque`"), "{told}");
+        assert_eq!(
+            asked("brake=0.5 N m").code,
+            i32::from(words.len() > 1) * 2,
+            "another input, unless it varies"
+        );
+    }
+}
+
+#[test]
 fn a_run_has_the_values_of_its_parameters_where_nothing_is_connected() {
     let folder = Folder::new("inputs-run");
     let file = folder.path("m.toml");

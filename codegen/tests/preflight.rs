@@ -314,6 +314,9 @@ fn a_guess_half_a_turn_off_does_not_turn_a_joint_over() {
         (TURNING_RAM, "gd = { q1 = \"180 deg\" }"),
         (TURNING_RAM, "gd = { q1 = \"150 deg\" }"),
         (BALL_ROD, "s2 = [0, 0, \"170 deg\"]"),
+        // Where the logarithm is no number.
+        (BALL_ROD, "s1 = [0, 0, \"180 deg\"]"),
+        (BALL_ROD, "s2 = [0, 0, \"180 deg\"]"),
         (&slide, "s2 = [0, \"179 deg\", 0]"),
     ] {
         let guess = format!("[assembly]\n{guess}\n");
@@ -351,4 +354,34 @@ fn play_that_a_plane_linkage_does_not_need_is_no_reason_why_it_moves() {
     let loose = "[clearance.gd]\nradial = \"5 um\"\njournal_radius = \"20 mm\"\nlength = \"60 mm\"\nends = \"journal\"\n\
         modulus = \"115 GPa\"\nrestitution = 0.5\n";
     assert_eq!(warnings(&format!("{TURNING_RAM}{loose}")), "");
+}
+
+/// A shaft that turns a nut along a guide, 5 mm per turn.
+const SPINDLE: &str = r#"
+[points]
+O = [0, 0, 0]
+N = ["0.1*s", 0, 0]
+[bodies]
+shaft = { mass = "1 kg", centre = "O", inertia = ["1e-3 kg*s^2", "1e-3 kg*s^2", "1e-3 kg*s^2"] }
+nut = { mass = "1 kg", centre = "N", inertia = ["1e-3 kg*s^2", "1e-3 kg*s^2", "1e-3 kg*s^2"] }
+[joints]
+turn = { revolute = ["ground", "shaft"], at = "O", axis = [1, 0, 0], drive = "2*pi*speed*t" }
+along = { prismatic = ["ground", "nut"], at = "N", axis = [1, 0, 0] }
+thread = { screw = ["shaft", "nut"], at = "N", axis = [1, 0, 0], lead = "0.005*s", cut = true }
+"#;
+
+#[test]
+fn a_nut_is_never_half_a_pitch_off_its_thread() {
+    for guess in [0.5, 1.2, 1.25, 1.3, 2.4, 2.5, 2.6, 4.9, 7.5, 42.4] {
+        let more = format!("[assembly]\nalong = \"{guess} mm\"\n");
+        let assemblies = compiled(SPINDLE, &more, &[]).assemblies();
+        let places = assemblies.others.iter().chain([&assemblies.taken]).flatten();
+        let mut nearest = f64::INFINITY;
+        for at in places.filter(|at| at.joint == "along") {
+            // Assembly closes loops to 1e-10 of the longest arm.
+            assert!((at.value / 5e-3 - (at.value / 5e-3).round()).abs() < 1e-6, "{guess} mm: {}", at.value);
+            nearest = nearest.min((1e3 * at.value - guess).abs());
+        }
+        assert!(nearest <= 2.5 + 1e-6, "{guess} mm: the next thread is {nearest} mm away");
+    }
 }

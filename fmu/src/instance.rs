@@ -1,6 +1,7 @@
 //! One instance of a unit: modes, times, values. In: what a tool asks, in safe terms. Out: answers, or a [`Fault`] with its
 //! reason. Never knows pointers.
 
+mod clearances;
 mod exchange;
 pub mod kept;
 mod motion;
@@ -71,6 +72,8 @@ pub struct Instance {
     /// Values that are wanted; those of the motion follow before it is asked.
     parameters: Vec<f64>,
     motion: Option<Motion>,
+    /// Values that the motion refused, and why: they stay refused until others are wanted.
+    refused: Option<(Vec<f64>, Fault)>,
     sensitivity: Option<Sensitivity>,
 }
 
@@ -86,6 +89,7 @@ impl Instance {
             variables: Variables::new(&loaded.unit, &channels),
             parameters: defaults(loaded),
             motion: None,
+            refused: None,
             sensitivity: None,
         }
     }
@@ -191,6 +195,10 @@ impl Instance {
 
     /// The motion with the parameters that are wanted.
     fn motion(&mut self) -> Result<&mut Motion, Fault> {
+        if let Some((_, fault)) = self.refused.as_ref().filter(|(values, _)| *values == self.parameters) {
+            return Err(fault.clone());
+        }
+        self.refused = None;
         let stale = self.mode == Mode::Initialization
             && self.motion.as_ref().is_some_and(|motion| motion.parameters() != self.parameters);
         if self.motion.is_none() || stale {
@@ -208,8 +216,11 @@ impl Instance {
             motion.set_parameters(&self.parameters)
         };
         if let Err(error) = set {
-            // What is refused is not asked for again.
-            self.parameters = motion.parameters().to_vec();
+            match motion {
+                Motion::Steps(_) => self.refused = Some((self.parameters.clone(), error.clone())),
+                // States are the tool's: with others the same values may do.
+                Motion::Space(_) => self.parameters = motion.parameters().to_vec(),
+            }
             return Err(error);
         }
         Ok(motion)

@@ -3,10 +3,10 @@
 
 mod commands;
 
-use linkwear_codegen::diagnostic::{Code, Severity, nearest};
+use linkwear_codegen::diagnostic::{Code, Explanation, Severity, nearest};
 
 use super::answer::Answer;
-use super::answer::explain::ExplainAnswer;
+use super::answer::explain::{BesideAnswer, ExplainAnswer};
 use super::failure::Failure;
 use commands::COMMANDS;
 
@@ -36,6 +36,7 @@ fn of_file(code: Code) -> Option<ExplainAnswer> {
         right,
         wrong_file: Some(explanation.file(wrong)),
         right_file: Some(explanation.file(right)),
+        beside: beside([wrong, right]),
     })
 }
 
@@ -50,7 +51,19 @@ fn of_command_line(code: &str) -> Option<ExplainAnswer> {
         right: known.right,
         wrong_file: None,
         right_file: None,
+        beside: Vec::new(),
     })
+}
+
+/// Each once, in the order in which they are named.
+fn beside(examples: [&str; 2]) -> Vec<BesideAnswer> {
+    let mut files: Vec<BesideAnswer> = Vec::new();
+    for (name, text) in examples.into_iter().flat_map(Explanation::beside) {
+        if !files.iter().any(|known| known.name == name) {
+            files.push(BesideAnswer { name, text });
+        }
+    }
+    files
 }
 
 fn unknown(code: &str) -> Failure {
@@ -63,12 +76,14 @@ fn unknown(code: &str) -> Failure {
 }
 
 fn text(told: &ExplainAnswer) -> String {
-    let ExplainAnswer { code, title, text, wrong, right, .. } = told;
+    let ExplainAnswer { code, title, text, wrong, right, beside, .. } = told;
     let indented = |lines: &str| -> String {
         lines.lines().map(|line| format!("  {line}\n").replace("  \n", "\n")).collect()
     };
     let text = folded(text);
-    format!("{code}: {title}\n\n{text}\nWrong:\n{}\nRight:\n{}", indented(wrong), indented(right))
+    let beside: String =
+        beside.iter().map(|file| format!("\n{}:\n{}", file.name, indented(file.text))).collect();
+    format!("{code}: {title}\n\n{text}\nWrong:\n{}\nRight:\n{}{beside}", indented(wrong), indented(right))
 }
 
 /// Lines of a paragraph, no longer than a terminal is wide.

@@ -87,6 +87,12 @@ impl Failure {
         Self { exit: USAGE, ..Self::new("C0001", None, message, help) }
     }
 
+    /// An input has a value by `--set` and a column in the file of `--inputs`.
+    pub fn set_over_time(name: &str) -> Self {
+        let help = format!("delete its column in the file of --inputs, or leave `--set {name}` out");
+        Self::usage(format!("the input `{name}` is set and given over time"), help)
+    }
+
     /// A file cannot be read.
     pub fn read(file: &Path) -> impl FnOnce(io::Error) -> Self + '_ {
         move |error| {

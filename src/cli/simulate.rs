@@ -97,6 +97,9 @@ impl<'a> Simulation<'a> {
         refuse_too_many(arguments.samples as usize, description)?;
         let inputs = arguments.inputs.as_deref().map(CsvTable::read).transpose()?;
         let signals = inputs.as_ref().map(|table| read_inputs(table, description)).transpose()?;
+        if let Some(name) = signals.as_ref().and_then(|signals| mechanism.given_over_time(signals)) {
+            return Err(Failure::set_over_time(name));
+        }
         let inputs_sha256 = inputs.map(|table| table.sha256().to_owned());
         let span = span(arguments, description)?;
         let integrator = integrator.unwrap_or_else(|| Integrator::adaptive(description, arguments.tol));

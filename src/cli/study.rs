@@ -162,6 +162,7 @@ pub fn failed(arguments: &StudyArguments, error: StudyError) -> Failure {
             let help = format!("delete its column in the file of --inputs, or leave `--vary {name}` out");
             Failure::usage(&error, help)
         }
+        StudyError::SetOverTime { ref name } => Failure::set_over_time(name),
         StudyError::LifeOverTime { ref name } => {
             let help = format!(
                 "leave `{name}` or --inputs out; give inputs of a life a value by --set or --vary, or values that change by a mission"

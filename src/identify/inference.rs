@@ -61,6 +61,14 @@ impl Misfit {
     pub fn is_doubtful(self) -> bool {
         self.p < LEVEL
     }
+
+    /// By how much the noise that was given is larger than what residuals show, if that is no chance and more than people round by.
+    pub fn too_large(self) -> Option<f64> {
+        /// Who knows noise roughly knows it to a factor of two.
+        const ROUNDED: f64 = 2.0;
+        let times = libm::sqrt(self.degrees as f64 / self.chi_squared);
+        (self.p > 1.0 - LEVEL && times > ROUNDED).then_some(times)
+    }
 }
 
 /// Errors at the minimum; with `profiles` intervals are those of the likelihood where it is no parabola.

@@ -149,6 +149,14 @@ fn noise_that_is_given_is_held_against_the_residuals() {
     let right = sought(decay, &frees, y.clone(), Some(0.2)).expect("a fit");
     let misfit = right.misfit.expect("noise is given");
     assert!(misfit.degrees == 38 && !misfit.is_doubtful() && right.degrees.is_none(), "{misfit:?}");
+    let is_told = |found: &Identified| {
+        found.warnings.iter().any(|warning| warning.contains("as large as residuals show"))
+    };
+    assert!(!is_told(&right), "{:?}", right.warnings);
+    let large = sought(decay, &frees, y.clone(), Some(20.0)).expect("a fit");
+    let times = large.misfit.expect("noise is given").too_large().expect("far too large");
+    // Of 38 degrees of freedom the noise is known to 11 %: three times that.
+    assert!((times / 100.0 - 1.0).abs() < 0.35 && is_told(&large), "{times} {:?}", large.warnings);
     let wrong = sought(decay, &frees, y, Some(0.05)).expect("a fit");
     assert!(wrong.misfit.expect("noise is given").is_doubtful());
     // Enlarged by the root of chi-squared over degrees: the errors of the noise that there is.

@@ -136,6 +136,18 @@ fn warnings(found: &Identified) -> Vec<String> {
             (misfit.chi_squared / misfit.degrees as f64).sqrt()
         ));
     }
+    if let Some((misfit, times)) = found.misfit.and_then(|misfit| Some((misfit, misfit.too_large()?))) {
+        let times = if times.is_finite() {
+            format!("{times:.1} times as large as")
+        } else {
+            "larger than".to_owned()
+        };
+        all.push(format!(
+            "the noise that is given is {times} residuals show (chi-squared {:.3} of {} degrees of freedom): errors and intervals are as much \
+             too wide; look at its unit, or leave it out",
+            misfit.chi_squared, misfit.degrees
+        ));
+    }
     if !found.converged {
         all.push("the best search did not come to rest: errors are of a place beside the minimum".to_owned());
     }

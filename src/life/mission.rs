@@ -60,6 +60,29 @@ impl LifeStudy<'_> {
     }
 }
 
+impl LifeStudy<'_> {
+    /// The name of the mission, if every segment of it gives this parameter or input a value of its own. These count after the
+    /// mechanism's, so that the life does not depend on it. A mission that cannot be chosen is told by the life itself.
+    pub(crate) fn set_throughout(&self, name: &str) -> Option<&str> {
+        let mission = self.chosen_mission().ok()??;
+        let place = self.mechanism.description.parameters.iter().position(|known| known.name == *name)?;
+        let sets = |segment: &SegmentInfo| segment.values.iter().any(|(at, _)| *at == place);
+        mission.segments.iter().all(sets).then_some(&*mission.name)
+    }
+
+    /// A warning for everything that the mechanism's options set in vain.
+    pub(super) fn set_in_vain(&self) -> impl Iterator<Item = String> {
+        let told = |name| {
+            let mission = self.set_throughout(name)?;
+            Some(format!(
+                "every segment of mission `{mission}` sets `{name}`: the value by --set changes nothing; change the mission, or live \
+                 without it"
+            ))
+        };
+        self.mechanism.given().filter_map(told)
+    }
+}
+
 impl Duty {
     /// That of a study's mission; `system` runs its equations.
     pub fn new(study: &LifeStudy<'_>, system: &dyn System<f64>) -> Result<Self, Cause> {

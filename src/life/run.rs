@@ -99,6 +99,7 @@ impl LifeStudy<'_> {
         self.judge_binning((&mut result, &duty), &*system, &log, (journal, told, between))?;
         result.turn_errors = source.turn_errors(result.end.joint);
         result.warnings.splice(0..0, source.warnings());
+        result.warnings.splice(0..0, self.set_in_vain());
         Ok(result)
     }
 

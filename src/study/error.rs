@@ -20,6 +20,12 @@ pub enum StudyError {
         /// The input.
         name: String,
     },
+    /// What is set is given over time, so that its value would change nothing.
+    #[error("the input `{name}` is set and given over time")]
+    SetOverTime {
+        /// The input.
+        name: String,
+    },
     /// A life does not follow inputs over time: its turns repeat, at constant inputs.
     #[error(
         "`{name}` is of a life, in which inputs are constants: it does not follow those that are given over time"
@@ -47,6 +53,9 @@ pub(super) fn check_signals(
     let mut connected = inputs.filter(|(at, _)| signals.connects(*at)).map(|(_, (info, _))| &*info.name);
     if let Some(name) = connected.find(|name| points.axes().iter().any(|axis| axis.name == *name)) {
         return Err(StudyError::GivenOverTime { name: name.to_owned() });
+    }
+    if let Some(name) = cases.base().given_over_time(signals) {
+        return Err(StudyError::SetOverTime { name: name.to_owned() });
     }
     match of.iter().find(|quantity| quantity.needs() == Needs::Life) {
         Some(quantity) => Err(StudyError::LifeOverTime { name: quantity.name.clone() }),

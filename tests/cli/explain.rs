@@ -82,3 +82,21 @@ fn an_error_says_once_where_to_read_more_and_an_unknown_code_is_a_usage_error() 
     let near = linkwear(&["explain", "EO204"]);
     assert!(near.code == 2 && near.err.contains("did you mean `E0204`?"), "{}", near.err);
 }
+
+#[test]
+fn examples_stand_with_the_files_that_they_name() {
+    let folder = Folder::new("explain-beside");
+    for code in ["E0414", "W0125"] {
+        let json = linkwear(&["explain", code, "--format", "json"]).json();
+        for file in json["beside"].as_array().expect("files") {
+            let [name, text] = ["name", "text"].map(|key| file[key].as_str().expect("a text"));
+            folder.write(name, text);
+            assert!(linkwear(&["explain", code]).out.contains(&format!("{name}:")), "{code}");
+        }
+        for (key, is_said) in [("wrong_file", true), ("right_file", false)] {
+            let file = folder.write("example.toml", json[key].as_str().expect("a file"));
+            let answer = linkwear(&["check", &file]);
+            assert_eq!(answer.err.contains(&format!("[{code}]")), is_said, "{key} of {code}: {}", answer.err);
+        }
+    }
+}

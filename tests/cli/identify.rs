@@ -68,6 +68,8 @@ fn wrong_questions_are_answered_with_what_to_write() {
         (curve("column.csv", &with("R1.driv [N m]")), DAMPER, "C0011", "did you mean `R1.drive`?"),
         (curve("unit.csv", &with("R1.drive [N]")), DAMPER, "C0011", "same kind as N m"),
         (curve("bare.csv", &with("R1.drive")), DAMPER, "C0011", "`R1.drive [N m]`"),
+        // In degrees or in radians.
+        (curve("bare_angle.csv", &with("R4.q")), DAMPER, "C0011", "`R4.q [rad]`"),
         (curve("nan.csv", &good.replace("1.5", "nan")), DAMPER, "C0011", "write a number"),
         (curve("falls.csv", &good.replace("0.2,", "0.05,")), DAMPER, "C0011", "one row per instant"),
         (curve("early.csv", &good.replace("\n0,", "\n-0.1,")), DAMPER, "C0011", "--settle"),

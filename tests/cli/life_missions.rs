@@ -141,4 +141,11 @@ fn what_a_mission_sets_anyway_is_told_where_it_varies() {
     assert_eq!(warnings("speed=1Hz,3Hz", &[]), 2);
     assert_eq!(warnings("speed=1Hz,3Hz", &["--no-mission"]), 0);
     assert_eq!(warnings("c0=20um,30um", &[]), 0);
+    let words = ["life", &file, "--mean", "--step", "1e-4", "--settle", "0", "--format", "json"];
+    let warnings = |more: &[&str]| {
+        let told = linkwear(&[&words[..], more].concat()).json()["warnings"].to_string();
+        told.matches("every segment of mission `m` sets `speed`: the value by --set changes nothing").count()
+    };
+    assert_eq!(warnings(&["--set", "speed=3 Hz"]), 1);
+    assert_eq!(warnings(&["--set", "c0=30 um"]), 0);
 }

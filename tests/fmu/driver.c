@@ -326,6 +326,36 @@ int main(int argc, char **argv) {
         fmi3FreeInstance(unit);
         fmi3FreeInstance(NULL);
         printf("%d\n", messages);
+    } else if (!strcmp(mode, "refused")) {
+        /* A clearance that none can be, and a drive that would jump, stay refused until they are put right. */
+        FUNCTION(Status, fmi3EnterStepMode, Instance);
+        Ref clearance = (Ref)strtoul(argv[10], NULL, 10), other = argc > 11 ? (Ref)strtoul(argv[11], NULL, 10) : 0;
+        double value, before, wrong = -1e-5, more = -3e-5;
+        for (int events = 0; events < 2; events++) {
+            Instance unit = fmi3InstantiateCoSimulation("u", token, resources, false, false, events, false, NULL, 0, NULL, hear, NULL);
+            NEED(fmi3GetFloat64(unit, &clearance, 1, &before, 1), OK);
+            NEED(fmi3EnterInitializationMode(unit, true, tolerance, 0.0, true, stop), OK);
+            NEED(fmi3SetFloat64(unit, &clearance, 1, &wrong, 1), OK);
+            for (int again = 0; again < 2; again++) NEED(fmi3ExitInitializationMode(unit), ERROR);
+            NEED(fmi3SetFloat64(unit, &clearance, 1, &before, 1), OK);
+            NEED(fmi3ExitInitializationMode(unit), OK);
+            messages = 0;
+            if (other) {
+                /* What another parameter can put right is refused until it does. */
+                NEED(fmi3SetFloat64(unit, &clearance, 1, &wrong, 1), OK);
+                for (int again = 0; again < 2; again++) NEED(fmi3GetFloat64(unit, refs, count, values, count), ERROR);
+                NEED(fmi3SetFloat64(unit, &other, 1, &more, 1), OK);
+                NEED(fmi3GetFloat64(unit, refs, count, values, count), OK);
+            } else {
+                NEED(fmi3SetFloat64(unit, &clearance, 1, &wrong, 1), ERROR);
+                if (messages != 1) return 30;
+                NEED(fmi3GetFloat64(unit, &clearance, 1, &value, 1), OK);
+                if (value != before) return 31;
+            }
+            if (events) NEED(fmi3EnterStepMode(unit), OK);
+            NEED(fmi3DoStep(unit, 0.0, 0.5 * stop, true, flag, flag, flag, &last), OK);
+            fmi3FreeInstance(unit);
+        }
     } else if (!strcmp(mode, "wrong")) {
         /* Whatever is called wrongly is told. */
         if (fmi3InstantiateCoSimulation("u", "{no}", resources, 0, 0, 0, 0, NULL, 0, NULL, hear, NULL)) return 20;

@@ -198,15 +198,16 @@ impl<'a, 'g> RowMaker<'a, 'g> {
         self.push_rotation("twist about the common normal of both axes", residual, u, bias);
     }
 
-    /// Advance h (per angle) and turn of a screw stay in proportion. The residual `-h sin(angle - stroke / h)` is
-    /// smooth over many turns.
+    /// Advance h (per angle) and turn of a screw stay in proportion. The residual `-h (angle - stroke / h)`, but for whole turns, is
+    /// smooth over many turns: of the angle its sine and cosine are known. The sine alone would vanish half a turn off as well.
     fn thread(&mut self, z: Vec3<'g>, h: f64) {
         let rotation = self.motion.rotation();
         let (scale, per_length) = (self.g.number(h), self.g.number(1.0 / h));
         let angle = per_length * z.dot(self.motion.distance);
         let (sine, cosine) = (angle.sin(), angle.cos());
         let turned = rotation[1][0] * cosine;
-        let residual = scale * (rotation[0][0] * sine - turned);
+        let ahead = rotation[0][0] * sine - turned;
+        let residual = scale * ahead.atan2(rotation[0][0] * cosine + rotation[1][0] * sine);
         let moment = -h * z;
         let bias =
             self.both(|relative| self.translation_bias(z, relative) + -h * self.rotation_bias(z, relative));

@@ -206,7 +206,7 @@ codes! {
     TurnsAsAngle = "W0111",
     /// A body far longer, shorter or thicker than the others.
     SizesApart = "W0112",
-    /// A density, modulus, hardness or wear coefficient that no material has.
+    /// A density, modulus, hardness, wear coefficient, friction or damping that no material has.
     OddMaterial = "W0113",
     /// A clearance or wear threshold that is large beside its journal.
     OddBearing = "W0114",
@@ -230,8 +230,13 @@ codes! {
     HeldElsewhere = "W0123",
     /// A link of linear shapes that turns fast beside its first frequency.
     FastForOrder1 = "W0124",
+<<<<<<< HEAD
     /// A drive or a start value of a speed that no material stands.
     TooFast = "W0140",
+=======
+    /// Modal data whose mass matrix is not that of their couplings.
+    ModalMass = "W0125",
+>>>>>>> helpA
 }
 
 impl Code {

@@ -43,8 +43,8 @@ mod tests {
     fn told(explanation: &Explanation, lines: &str) -> (Vec<Code>, bool, String) {
         let set = lines.strip_prefix("--set ").and_then(|set| set.split_once('='));
         let overrides = set.into_iter().map(|(name, value)| (name.to_owned(), value.to_owned())).collect();
-        // The modal data of an example are those of another test.
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/data");
+        // Where the files beside an example are.
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/src/diagnostic/explanation");
         let source = SourceFile { name: format!("{folder}/example.toml"), text: explanation.file(lines) };
         let (said, compiles) = match compile(&source, &Options { overrides, ..Options::default() }) {
             Ok(compiled) => (compiled.warnings, true),

@@ -59,6 +59,18 @@ pub enum DataError {
         "gamma, moment, mass_matrix and the rigid constants do not belong to one body: a motion has negative mass"
     )]
     NegativeMass,
+    /// Products of these modes over the mass are of no body.
+    #[error(
+        "the couplings of {} do not belong to one body with gamma, moment and the rigid constants: a motion has negative mass{}",
+        .modes.iter().map(|mode| format!("mode {mode}")).collect::<Vec<_>>().join(", "),
+        if *.missing { "; a mode has no [[coupling]] with itself" } else { "" }
+    )]
+    Products {
+        /// Their names: one, where that is wrong alone.
+        modes: Vec<String>,
+        /// Whether one has no coupling with itself.
+        missing: bool,
+    },
     /// A node has `displacement2` and the body no second order, or the other way round.
     #[error("node {node} must have displacement2 exactly when order = 2")]
     Order {
@@ -108,7 +120,8 @@ impl ModalData {
         definite("stiffness", &self.stiffness)?;
         definite("damping", &self.damping)?;
         definite("second_moment", &self.second_moment.map(|row| row.to_vec()))?;
-        semidefinite(&self.full_mass_matrix()).then_some(()).ok_or(DataError::NegativeMass)
+        semidefinite(&self.full_mass_matrix()).then_some(()).ok_or(DataError::NegativeMass)?;
+        self.check_products()
     }
 
     fn check_lengths(&self) -> Result<(), DataError> {

@@ -25,6 +25,7 @@ mod line;
 mod mesh;
 mod motion;
 mod natural;
+mod one_body;
 mod reduced;
 mod section;
 mod shapes;

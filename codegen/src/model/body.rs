@@ -35,6 +35,8 @@ pub struct Flexible {
     pub start: Vec<[f64; 2]>,
     /// Young's modulus [Pa] and where it is written; nothing of modal data.
     pub young: Option<(f64, Span)>,
+    /// Where its damping is written, else the body's shapes.
+    pub damped: Span,
     /// What was left out, for warnings.
     pub left_out: Vec<LeftOut>,
 }

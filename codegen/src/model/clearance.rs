@@ -26,6 +26,8 @@ pub struct Clearance {
 pub struct ClearancePlaces {
     /// Of the contact modulus.
     pub modulus: Span,
+    /// Of the coefficient of friction, of that at rest if there is one.
+    pub friction: Span,
     /// Of the hardness.
     pub hardness: Span,
     /// Of the wear coefficient.

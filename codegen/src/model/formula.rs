@@ -95,6 +95,11 @@ impl Formula {
         Self { term: Term::Number(value), dimension, span: Span::default() }
     }
 
+    /// Whether it stands for one that is wrong, which is reported: it is no number then.
+    pub(crate) fn is_wrong(&self) -> bool {
+        matches!(self.term, Term::Number(value) if value.is_nan())
+    }
+
     /// Value with the given parameter values (SI, all parameters in file order).
     /// `None` if it depends on time, coordinates or speeds.
     pub fn value(&self, parameters: &[f64]) -> Option<f64> {

@@ -5,7 +5,7 @@ use linkwear_runtime::CLOSED_AT_START;
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::JointId;
-use crate::model::{Joint, Mechanism};
+use crate::model::{Coupling, Joint, Mechanism};
 
 use super::analysis::Analysis;
 use super::exactness::{NEARLY, ROUNDING};
@@ -20,12 +20,32 @@ pub fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
         analysis.speeds, analysis.independent_rows
     );
     let cut = analysis.cuts.first().and_then(|cut| named(mechanism, cut));
-    Diagnostic::new(Code::Locked, message)
-        .at_each(cut.map(|joint| joint.span), "the loop closed here is rigid")
-        .help(format!(
-            "the joints {names} form a structure; free one of them (for instance make a revolute spherical) \
-             or correct axes that should be parallel or meet in a point"
-        ))
+    let couplings: Vec<&Coupling> = rigid_couplings(mechanism).collect();
+    let diagnostic = Diagnostic::new(Code::Locked, message);
+    // Without a loop of joints it is the couplings that hold them.
+    if cut.is_none() && !couplings.is_empty() {
+        return diagnostic
+            .at_each(couplings.iter().map(|coupling| coupling.span), "couples them")
+            .help(contradict(&couplings));
+    }
+    diagnostic.at_each(cut.map(|joint| joint.span), "the loop closed here is rigid").help(format!(
+        "the joints {names} form a structure; free one of them (for instance make a revolute spherical) \
+         or correct axes that should be parallel or meet in a point"
+    ))
+}
+
+/// Couplings that do not give way.
+fn rigid_couplings(mechanism: &Mechanism) -> impl Iterator<Item = &Coupling> {
+    mechanism.couplings.iter().filter(|coupling| coupling.compliance.is_none())
+}
+
+/// What helps where couplings leave no motion.
+fn contradict(couplings: &[&Coupling]) -> String {
+    let names = quoted(couplings.iter().map(|coupling| coupling.name.as_str()));
+    format!(
+        "the couplings {names} ask for ratios that contradict each other, or hold joints that stand: correct teeth, radii or factors, or \
+         take one away"
+    )
 }
 
 /// Some joints can never move, although others do or links bend.
@@ -80,11 +100,16 @@ pub fn conflicts(
 /// What helps where a joint cannot move without its driver either; nothing where it can.
 fn held_without_driver(mechanism: &Mechanism, driven: JointId, rigid: &[JointId]) -> Option<String> {
     let names = quoted(rigid.iter().map(|joint| mechanism.joint(*joint).name.as_str()));
-    rigid.contains(&driven).then(|| {
-        format!(
+    let ties = |coupling: &&Coupling| coupling.terms.iter().all(|term| rigid.contains(&term.joint));
+    let couplings: Vec<&Coupling> = rigid_couplings(mechanism).filter(ties).collect();
+    // One alone leaves joints their motion; several of the same joints may not.
+    let of_driven = couplings.iter().filter(|one| one.terms.iter().any(|term| term.joint == driven)).count();
+    rigid.contains(&driven).then(|| match of_driven {
+        2.. => format!("{names} cannot move without a driver either: {}", contradict(&couplings)),
+        _ => format!(
             "{names} cannot move without a driver either: correct points and axes that should be elsewhere, free one of these \
              joints (for instance make a revolute spherical), or drive a joint that moves"
-        )
+        ),
     })
 }
 

@@ -16,6 +16,7 @@ mod friction;
 mod idle;
 mod immobile;
 mod immovable;
+mod losses;
 mod own_units;
 mod plausible;
 mod prescribed;

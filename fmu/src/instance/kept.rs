@@ -64,7 +64,7 @@ impl Instance {
                 Some(motion)
             }
         };
-        self.motion = restored;
+        (self.motion, self.refused) = (restored, None);
         (self.mode, self.times) = (kept.mode, kept.times);
         self.parameters.clone_from(&kept.parameters);
         Ok(())

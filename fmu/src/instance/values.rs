@@ -35,13 +35,13 @@ impl Instance {
     /// Sets parameters.
     ///
     /// # Errors
-    /// If a variable is none that may be set now, or a value is no number; nothing has changed then.
+    /// If a variable is none that may be set now, a value is no number, or no journal would fit with it; nothing has changed then.
     pub fn set(&mut self, references: &[u32], values: &[f64]) -> Result<(), Fault> {
         if references.len() != values.len() {
             return fault("every variable here is one number: give as many values as references");
         }
         let begun = !matches!(self.mode, Mode::Instantiated | Mode::Initialization);
-        let mut parameters = self.parameters.clone();
+        let (mut parameters, mut given) = (self.parameters.clone(), Vec::new());
         for (reference, value) in references.iter().zip(values) {
             let Some(Variable::Parameter(index)) = self.variables.get(*reference) else {
                 return fault(format!("variable {reference} is no parameter that can be set"));
@@ -63,6 +63,10 @@ impl Instance {
                 return fault(format!("parameter `{name}` cannot be changed now: {why}"));
             }
             parameters[index] = *value;
+            given.push(index);
+        }
+        if begun && parameters != self.parameters {
+            self.check_clearances(&parameters, &given)?;
         }
         self.parameters = parameters;
         Ok(())

@@ -17,6 +17,9 @@ const TOLERANCES: [f64; 3] = [1e-8, 1e-4, 1e-2];
 const LONGEST_STEP: f64 = 0.5;
 /// Half width of the central differences: truncation 1e-12, rounding 1e-10, of the arm's length.
 const DIFFERENCE: f64 = 1e-6;
+/// A step away from a guess at which residuals are no numbers [rad]: far enough that what is lost beside half a turn does not count,
+/// near enough to lead where the guess would.
+const ASIDE: f64 = 1e-3;
 /// All rows this small: only kept rows, whose Jacobian is exact, go on.
 const POLISH: f64 = 1e-9;
 
@@ -92,6 +95,10 @@ impl<'e, 'a> Newton<'e, 'a> {
     pub(super) fn run(&mut self) -> Result<Vec<f64>, AssemblyError> {
         let mut q = self.guess.clone();
         let mut residual = self.residuals(&q);
+        if residual.iter().any(|x| !x.is_finite()) {
+            q = self.aside(&q);
+            residual = self.residuals(&q);
+        }
         if let Some(row) = residual.iter().position(|x| !x.is_finite()) {
             let joint = self.evaluator.joint_of_row(row);
             return Err(AssemblyError::NonFinite { what: format!("loop residual of {joint}") });
@@ -122,6 +129,16 @@ impl<'e, 'a> Newton<'e, 'a> {
             residual_m: error.metres,
             residual_rad: error.radians,
         })
+    }
+
+    /// A little beside a position. The logarithm of exactly half a turn is no number: its axis points either way.
+    fn aside(&mut self, q: &[f64]) -> Vec<f64> {
+        // Speeds move differently, so that no symmetry stays.
+        let step: Vec<f64> = (1_i32..)
+            .zip(&self.columns)
+            .map(|(speed, frozen)| if *frozen { 0.0 } else { ASIDE * (1.0 + f64::from(speed).recip()) })
+            .collect();
+        self.moved(q, &step, 1.0)
     }
 
     /// Of all rows, then of the offsets: pure numbers.

@@ -24,4 +24,16 @@ pub struct ExplainAnswer {
     pub wrong_file: Option<String>,
     /// The whole file with the right lines; null for codes of the command line.
     pub right_file: Option<String>,
+    /// Files that these lie beside, because they name them.
+    pub beside: Vec<BesideAnswer>,
+}
+
+/// A file that an example names.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(JsonSchema))]
+pub struct BesideAnswer {
+    /// Its name.
+    pub name: &'static str,
+    /// What stands in it.
+    pub text: &'static str,
 }

@@ -141,16 +141,18 @@ fn in_terms_of(si: &str, unit: UnitSize) -> Option<f64> {
     (unit.dimension == own.dimension).then(|| unit.size * unit.turning.in_terms_of(own.turning))
 }
 
-/// A column in SI; its unit stands in its title, or it has none where none is needed.
+/// A column in SI; its unit stands in its title, or it has none where there is none. Degrees and radians are of the dimension of a pure
+/// number: only the file knows which of them it has.
 fn in_si(table: &CsvTable<'_>, place: usize, si: &str) -> Result<Vec<f64>, Failure> {
     let title = table.header().get(place).cloned().unwrap_or_default();
     let (name, unit) = parts(&title);
     let needed = unit_size(si).map_or(Dimension::NONE, |own| own.dimension);
     let unit = match unit {
         Some(unit) => unit,
-        None if needed == Dimension::NONE => "1",
+        None if si == "1" => "1",
         None => {
-            let help = format!("write its unit into the header: `{name} [{si}]`");
+            let or = if needed == Dimension::NONE { ", or that in which it was measured" } else { "" };
+            let help = format!("write its unit into the header: `{name} [{si}]`{or}");
             return Err(fault(table, format!("column `{title}` has no unit"), &help));
         }
     };

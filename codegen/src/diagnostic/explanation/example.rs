@@ -39,7 +39,18 @@ impl File {
     }
 }
 
+/// Modal data that examples name.
+const BESIDE: [(&str, &str); 2] = [
+    ("rod_of_two_masses.toml", include_str!("rod_of_two_masses.toml")),
+    ("rod_of_other_mass.toml", include_str!("rod_of_other_mass.toml")),
+];
+
 impl Explanation {
+    /// Files that lines of the example name, with their texts: they lie beside it.
+    pub fn beside(lines: &str) -> impl Iterator<Item = (&'static str, &'static str)> {
+        BESIDE.into_iter().filter(move |(name, _)| lines.contains(name))
+    }
+
     /// The whole file of some lines of the example: [`Self::wrong`] or [`Self::right`].
     pub fn file(&self, lines: &str) -> String {
         if lines.starts_with("spec = 1\n") {

@@ -1,4 +1,4 @@
-//! Explanations of warnings about flexible links.
+//! Explanations of warnings about flexible links and modal data.
 
 use super::example::{Explanation, File};
 use crate::diagnostic::Code;
@@ -37,5 +37,16 @@ bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = 
 
 [joints]
 hinge = { revolute = ["ground", "bar"], at = "O", axis = [0, 0, 1], drive = "2*pi*9.5 Hz*t" }"#,
+    },
+    Explanation {
+        code: Code::ModalMass,
+        file: File::Swing,
+        text: "The mass of two modes is the trace of their coupling, the integral of the product of their shapes. Both stand in modal data, and \
+               these contradict each other by more than lumped masses do: one of them was left out, scaled or written in other axes. \
+               `mass_matrix` counts in the accelerations of the modes, `coupling` in everything else.",
+        wrong: r#"[bodies]
+bar = { rod = ["O", "A"], radius = "9 mm", mass = "2 kg", flexible = { data = "rod_of_other_mass.toml", origin = "O" } }"#,
+        right: r#"[bodies]
+bar = { rod = ["O", "A"], radius = "9 mm", mass = "2 kg", flexible = { data = "rod_of_two_masses.toml", origin = "O" } }"#,
     },
 ];

@@ -133,15 +133,15 @@ bar = { rod = ["O", "A"], radius = "10 mm", density = "7850 kg/m^3", flexible = 
         code: Code::NoNodeHere,
         file: File::Swing,
         text: "A joint or force attaches to a flexible body where its modal data have no node, so nobody knows \
-               how it moves there. Attach it to a node (here they are at 0, 150 and 300 mm along the rod), or \
+               how it moves there. Attach it to a node (here they are at 0, 0.5 and 1 m along the rod), or \
                have the data written with one there.",
         wrong: r#"[bodies]
-bar = { rod = ["O", "A"], radius = "4 mm", mass = "0.15 kg", flexible = { data = "slider_crank_rod.toml", origin = "O" } }"#,
-        right: r#"[parameters]
-length = "300 mm"
+bar = { rod = ["O", "A"], radius = "9 mm", mass = "2 kg", flexible = { data = "rod_of_two_masses.toml", origin = "O" } }
 
-[bodies]
-bar = { rod = ["O", "A"], radius = "4 mm", mass = "0.15 kg", flexible = { data = "slider_crank_rod.toml", origin = "O" } }"#,
+[parameters]
+length = "1.2 m""#,
+        right: r#"[bodies]
+bar = { rod = ["O", "A"], radius = "9 mm", mass = "2 kg", flexible = { data = "rod_of_two_masses.toml", origin = "O" } }"#,
     },
     Explanation {
         code: Code::BadClearance,

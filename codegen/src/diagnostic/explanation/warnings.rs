@@ -214,7 +214,7 @@ rod = { rod = ["A", "P"], radius = "8 mm", density = "7850 kg/m^3" }"#,
     Explanation {
         code: Code::OddMaterial,
         file: File::Press,
-        text: "A density, contact modulus, hardness or wear coefficient that no material has: often MPa for GPa, or \
+        text: "A density, modulus, hardness, wear coefficient, coefficient of friction or damping ratio that no material has: often MPa for GPa, or \
                g/cm^3 without its unit. `docs/choosing-values.md` has usual values with their sources.",
         wrong: r#"[wear.pin]
 hardness = "3.5 kPa""#,

@@ -103,3 +103,34 @@ fn the_documented_example_is_a_file() {
     assert_eq!(data.node("tip").map(|node| node.displacement.len()), Some(2));
     assert_eq!(data.coupling[1][0][2][1], 2.0);
 }
+
+#[test]
+fn couplings_of_no_body_are_refused() {
+    let scaled = |data: &mut ModalData, k: usize, factor: f64| {
+        data.coupling[k][k].iter_mut().flatten().for_each(|entry| *entry *= factor);
+    };
+    for (factor, missing) in [(0.0, true), (0.5, false)] {
+        let DataError::Products { modes, missing: found } = refused(|data| scaled(data, 0, factor)) else {
+            panic!("another fault")
+        };
+        assert_eq!((modes.len(), found), (1, missing));
+    }
+    // Two shapes whose product is larger than both.
+    let together = refused(|data| {
+        let size = 2.0 * data.mass_matrix[0][0].max(data.mass_matrix[1][1]);
+        (data.coupling[0][1][1][1], data.coupling[1][0][1][1]) = (size, size);
+    });
+    assert!(matches!(together, DataError::Products { modes, .. } if modes.len() > 1));
+}
+
+#[test]
+fn masses_of_modes_are_held_against_their_couplings() {
+    let mut data = sample(false);
+    assert_eq!(data.mass_beside_products(), None);
+    data.coupling[0][0].iter_mut().flatten().for_each(|entry| *entry *= 1.02);
+    assert_eq!(data.check(), Ok(()));
+    let (modes, [mass, product]) = data.mass_beside_products().expect("they differ");
+    assert_eq!((modes, mass), ([0, 0], data.mass_matrix[0][0]));
+    // The mass is the trace but for the quadrature of a mesh.
+    assert!((product / mass - 1.02).abs() < 1e-9, "{product} {mass}");
+}

@@ -183,6 +183,7 @@ impl Resolver<'_> {
             stations,
             start: vec![[0.0; 2]; data.modes.len()],
             young,
+            damped: spec.value.damping.as_ref().map_or(spec.span, |written| written.span),
             left_out: left_out
                 .map(|(name, frequency)| LeftOut {
                     name: name.to_owned(),

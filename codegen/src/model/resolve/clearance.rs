@@ -136,14 +136,19 @@ impl Resolver<'_> {
             let wears = wear.map(|(_, wear)| &wear.value);
             let places = ClearancePlaces {
                 modulus: place(written.value.modulus.as_ref()),
+                friction: place(written.value.static_friction.as_ref().or(written.value.friction.as_ref())),
                 hardness: place(wears.and_then(|wear| wear.hardness.as_ref())),
                 coefficient: place(wears.and_then(|wear| wear.coefficient.as_ref())),
                 threshold: place(wears.and_then(|wear| wear.threshold.as_ref())),
             };
             joint.clearance = Some(Box::new(Clearance { radial, laws, journal, factor, places }));
         }
-        for (name, _) in &file.wear.0 {
+        for (name, written) in &file.wear.0 {
             let known = file.clearance.0.iter().any(|(other, _)| other.value == name.value);
+            // Its own faults are told beside that its joint is unknown.
+            if !joints.iter().any(|joint| joint.name == name.value) {
+                self.wear(name, written);
+            }
             if self.joint_named(name, "[wear]").is_some() && !known {
                 let message = format!("joint `{}` wears but has no clearance", name.value);
                 self.refuse(Code::BadClearance, name.span, message)

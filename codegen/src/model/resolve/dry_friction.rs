@@ -49,8 +49,11 @@ impl Resolver<'_> {
         let onset = positive(&spec.onset, is.speed()).unwrap_or(default);
         let radius = positive(&spec.radius, Dimension::LENGTH);
         let length = positive(&spec.length, Dimension::LENGTH);
-        for speed in [&spec.stribeck_speed, &spec.onset].into_iter().flatten().filter(|_| is_hinge) {
-            self.warn_turns_as_angle(speed, &what);
+        let speeds = [(&spec.stribeck_speed, stribeck_speed.as_ref()), (&spec.onset, Some(&onset))];
+        for (written, formula) in speeds.into_iter().filter(|_| is_hinge) {
+            if let (Some(written), Some(formula)) = (written, formula) {
+                self.warn_turns_as_angle(written, formula, &what);
+            }
         }
         if spec.at_rest.is_some() != stribeck_speed.is_some() {
             let message = format!("{what}: `at_rest` and `stribeck_speed` say something only together");

@@ -182,6 +182,7 @@ impl Resolver<'_> {
             }
         };
         self.check_modal_mass(of, &data);
+        self.warn_modal_products(file, &data);
         // Those that are written are for people.
         let frequencies = data.natural_frequencies();
         data.modes.iter_mut().zip(frequencies).for_each(|(mode, frequency)| mode.frequency = frequency);
@@ -203,7 +204,8 @@ impl Resolver<'_> {
             .filter(looked_at)
             .map(|node| Station { name: data.nodes[node].name.clone(), node, stress: None })
             .collect();
-        Some(Flexible { axes, origin, nodes, stations, start, young: None, left_out: Vec::new(), data })
+        let (young, damped, left_out) = (None, file.span, Vec::new());
+        Some(Flexible { axes, origin, nodes, stations, start, young, damped, left_out, data })
     }
 
     /// The node at every point used.

@@ -97,7 +97,7 @@ impl Resolver<'_> {
                 let is = model.coordinates()[coordinate];
                 let formula = self.formula(law, Some(is.dimension()), Allowed::TIME, &what);
                 if is == Coordinate::Angle {
-                    self.warn_turns_as_angle(law, &what);
+                    self.warn_turns_as_angle(law, &formula, &what);
                 }
                 self.check_smooth(&formula, &what);
                 Drive { coordinate, law: formula }

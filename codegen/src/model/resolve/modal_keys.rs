@@ -62,6 +62,19 @@ impl Resolver<'_> {
         }
     }
 
+    /// Warns of masses of modes that are not those of their couplings.
+    pub(super) fn warn_modal_products(&mut self, file: &Name, data: &ModalData) {
+        let Some((modes, [mass, product])) = data.mass_beside_products() else { return };
+        let [one, other] = modes.map(|mode| &data.modes[mode].name);
+        let of = if one == other { format!("mode `{one}`") } else { format!("modes `{one}`, `{other}`") };
+        let message = format!(
+            "the modal data `{}`: `mass_matrix` has {mass:.6} for {of}, and the trace of their `coupling` is {product:.6}",
+            file.value
+        );
+        self.refuse(Code::ModalMass, file.span, message)
+            .help("the mass of modes is the trace of their coupling: have the data written again by the program that made them");
+    }
+
     /// Of a rod, tube or box [m³].
     fn volume(&self, of: Bending<'_>) -> f64 {
         let (ends, area) = match &of.body.inertia {

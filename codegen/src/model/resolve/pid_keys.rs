@@ -24,14 +24,17 @@ impl Resolver<'_> {
         };
         let both = [(measured, what("measured")), (setpoint, what("setpoint"))];
         let measured = self.formula(measured, None, Allowed::STATE, &what("measured"));
-        if matches!(measured.term, Term::Number(value) if value.is_nan()) {
+        if measured.is_wrong() {
             return None;
         }
         let of = measured.dimension;
         let setpoint = self.formula(setpoint, Some(of), Allowed::STATE, &what("setpoint"));
         if self.turns_of(both[0].0).of.differs_from(self.turns_of(both[1].0).of) {
             // One of them counts radians, and is silent.
-            both.iter().for_each(|(written, what)| self.warn_turns_as_angle(written, what));
+            let formulas = [&measured, &setpoint];
+            both.iter()
+                .zip(formulas)
+                .for_each(|((written, what), formula)| self.warn_turns_as_angle(written, formula, what));
         }
         let unit = self.unit_of_output(draft, of)?;
         let mut gain = |key: &str, written: &Option<Quantity>, seconds: i32| {
@@ -171,9 +174,10 @@ impl Resolver<'_> {
         if let [Some(lower), Some(upper)] = &limits {
             let [least, most] = [lower, upper].map(|limit| self.value(limit));
             if least >= most {
-                let unit = unit.si_unit();
+                let [least, most] = [(&spec.lower, least), (&spec.upper, most)]
+                    .map(|(written, value)| self.as_written(written.as_ref(), value, unit));
                 let message = format!(
-                    "controller `{}`: `lower` is {least} {unit}, which is not below `upper`, {most} {unit}",
+                    "controller `{}`: `lower` is {least}, which is not below `upper`, {most}",
                     name.value
                 );
                 self.refuse(Code::BadController, lower.span, message)

@@ -166,15 +166,17 @@ impl Resolver<'_> {
 
     fn start(&mut self, id: JointId, joint: &Joint, written: &Written<'_>, held: bool, what: &str) -> Start {
         let is = joint.model.start_values()[written.index];
-        if let Some(speed) = written.speed {
-            self.warn_frequency(speed, is, what);
-        }
         if let Some(position) = written.position {
             self.warn_degrees(position, is, what);
         }
         let position =
             written.position.map(|q| self.formula(q, Some(is.dimension()), Allowed::PARAMETERS, what));
         let speed = written.speed.map(|q| self.formula(q, Some(is.speed()), Allowed::PARAMETERS, what));
+        if let Some((written, formula)) = written.speed.zip(speed.as_ref())
+            && !formula.is_wrong()
+        {
+            self.warn_frequency(written, is, what);
+        }
         Start { joint: id, coordinate: written.index, position, speed, held, span: written.span }
     }
 

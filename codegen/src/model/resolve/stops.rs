@@ -126,11 +126,10 @@ impl Resolver<'_> {
                 None
             }
             [Some(lower), Some(upper)] if lower >= upper => {
-                let unit = is.dimension().si_unit();
-                let message = format!(
-                    "stop `{}`: `lower` is {lower} {unit}, which is not below `upper`, {upper} {unit}",
-                    name.value
-                );
+                let [lower, upper] = [(&spec.lower, lower), (&spec.upper, upper)]
+                    .map(|(written, value)| self.as_written(written.as_ref(), value, is.dimension()));
+                let message =
+                    format!("stop `{}`: `lower` is {lower}, which is not below `upper`, {upper}", name.value);
                 let at = limits[0].as_ref().map_or(name.span, |limit| limit.span);
                 self.refuse(Code::BadStop, at, message)
                     .help("the coordinate is free between them: swap them, or mind the signs");
@@ -272,7 +271,7 @@ impl Resolver<'_> {
         let what = place(key, "stop", draft.name);
         let formula = self.formula(written, Some(dimension), Allowed::PARAMETERS, &what);
         if draft.is == Coordinate::Angle {
-            self.warn_turns_as_angle(written, &what);
+            self.warn_turns_as_angle(written, &formula, &what);
         }
         self.check_positive(&formula, false, &what);
         (self.value(&formula) > 0.0).then_some(formula)

@@ -7,7 +7,7 @@ use super::resolver::Resolver;
 use super::responses::coordinate_of;
 use crate::diagnostic::Code;
 use crate::id::JointId;
-use crate::model::Coordinate;
+use crate::model::{Coordinate, Formula};
 use crate::spec::{Expression, Form, Literal, Operator, Quantity, Turning, parse_expression};
 
 /// Bare numbers this near to pi, 2 pi or a quarter of them stand for it: people write 3.14 and 6.28.
@@ -203,8 +203,11 @@ impl Resolver<'_> {
         }
     }
 
-    /// Warns if a formula that is an angle counts turns; what is wrong inside is told already.
-    pub(super) fn warn_turns_as_angle(&mut self, quantity: &Quantity, what: &str) {
+    /// Warns if a formula that is an angle counts turns; what is wrong inside is told already, as is a formula that is none.
+    pub(super) fn warn_turns_as_angle(&mut self, quantity: &Quantity, formula: &Formula, what: &str) {
+        if formula.is_wrong() {
+            return;
+        }
         let Turns { of, misread } = self.turns_of(quantity);
         if let (Literal::Text(text), true, None) = (&quantity.value, of.turns > 0, misread) {
             self.warn_turns(quantity, 0..text.len(), what);
