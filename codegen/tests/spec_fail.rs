@@ -51,7 +51,7 @@ fn diagnostics_of(case: &str) -> Diagnostics {
                 "W0119",
                 "W0121",
                 "W0124",
-                "W0140",
+                "W0126",
             ]
             .iter()
             .any(|code| case.starts_with(code))

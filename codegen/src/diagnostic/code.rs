@@ -230,13 +230,10 @@ codes! {
     HeldElsewhere = "W0123",
     /// A link of linear shapes that turns fast beside its first frequency.
     FastForOrder1 = "W0124",
-<<<<<<< HEAD
-    /// A drive or a start value of a speed that no material stands.
-    TooFast = "W0140",
-=======
     /// Modal data whose mass matrix is not that of their couplings.
     ModalMass = "W0125",
->>>>>>> helpA
+    /// A drive or a start value of a speed that no material stands.
+    TooFast = "W0126",
 }
 
 impl Code {
