@@ -112,6 +112,16 @@ impl SparseRows {
         Self::new(self.columns, self.rows)
     }
 
+    /// The same with nothing left of rows whose entries are all below a magnitude.
+    pub fn without_rows_below(mut self, magnitude: f64) -> Self {
+        for row in &mut self.rows {
+            if row.iter().all(|(_, entry)| entry.abs() < magnitude) {
+                row.clear();
+            }
+        }
+        self
+    }
+
     /// The matrix times a vector.
     pub fn times(&self, vector: &DVector<f64>) -> DVector<f64> {
         let along = |row: &Entries| row.iter().map(|(column, entry)| entry * vector[*column]).sum();

@@ -99,6 +99,145 @@ fn a_planar_mechanism_with_a_loose_guide_may_be_drawn_in_any_direction() {
     }
 }
 
+/// Vectors with a unit and directions of a drawing that is turned in space.
+struct Turned(([f64; 3], f64));
+
+impl Turned {
+    fn vector(&self, vector: [f64; 3], unit: &str) -> String {
+        let [x, y, z] = turned(vector, self.0);
+        format!("[\"{x} {unit}\", \"{y} {unit}\", \"{z} {unit}\"]")
+    }
+
+    fn direction(&self, vector: [f64; 3]) -> String {
+        let [x, y, z] = turned(vector, self.0);
+        format!("[{x}, {y}, {z}]")
+    }
+}
+
+const ANYWHERE: [([f64; 3], f64); 3] =
+    [([1.0, -2.0, 0.5], 2.3), ([0.3, 0.4, -1.0], -1.1), ([0.2, 0.9, 0.1], 0.4)];
+
+/// A plane four-bar with play in both pins of its coupler, so that no row of its loop lies in its plane.
+fn loose_four_bar(turn: ([f64; 3], f64)) -> String {
+    let turn = Turned(turn);
+    let [a, b, d] =
+        [[0.06, 0.08, 0.0], [0.31, 0.21, 0.0], [0.3, 0.0, 0.0]].map(|place| turn.vector(place, "m"));
+    let play = "radial = \"20 um\"\njournal_radius = \"8 mm\"\nlength = \"20 mm\"\nmodulus = \"80 GPa\"\nrestitution = 0.8";
+    format!(
+        "gravity = {gravity}
+[points]
+O = [0, 0, 0]
+A = {a}
+B = {b}
+D = {d}
+[bodies]
+crank = {{ rod = [\"O\", \"A\"], radius = \"8 mm\", density = \"7850 kg/m^3\" }}
+coupler = {{ rod = [\"A\", \"B\"], radius = \"8 mm\", density = \"7850 kg/m^3\" }}
+rocker = {{ rod = [\"D\", \"B\"], radius = \"8 mm\", density = \"7850 kg/m^3\" }}
+[joints]
+R1 = {{ revolute = [\"ground\", \"crank\"], at = \"O\", axis = {z}, drive = \"2*pi*2 Hz*t\" }}
+R2 = {{ revolute = [\"crank\", \"coupler\"], at = \"A\", axis = {z} }}
+R3 = {{ revolute = [\"coupler\", \"rocker\"], at = \"B\", axis = {z}, cut = true }}
+R4 = {{ revolute = [\"ground\", \"rocker\"], at = \"D\", axis = {z}, damping = \"0.05 N m s\" }}
+[clearance.R2]
+{play}
+[clearance.R3]
+{play}
+",
+        gravity = turn.vector([0.0, -9.81, 0.0], "m/s^2"),
+        z = turn.direction([0.0, 0.0, 1.0]),
+    )
+}
+
+#[test]
+fn rows_that_nothing_moves_are_none_wherever_a_plane_loop_is_drawn() {
+    let forces = |text: &str| {
+        let integrator = Integrator::adaptive(compiled(text).description(), Some(1e-9));
+        let run = run_with(text, &Settings::new(integrator, Span::Time(0.02), 21));
+        ["R2.Fn", "R3.Fn"].map(|name| run.column(name).expect(name))
+    };
+    let straight = forces(&loose_four_bar(([0.0, 0.0, 1.0], 0.0)));
+    let largest = straight.iter().flatten().copied().fold(0.0, f64::max);
+    for turn in ANYWHERE {
+        let text = loose_four_bar(turn);
+        let analysis = compiled(&text).analysis;
+        assert_eq!((analysis.independent_rows, analysis.mobility), (0, 5), "{turn:?}");
+        for (found, expected) in forces(&text).iter().flatten().zip(straight.iter().flatten()) {
+            // Stiff contacts of 1e-6 of their force, by steps of 1e-9.
+            assert!((found - expected).abs() < 1e-5 * largest, "{turn:?}: {found}, not {expected}");
+        }
+    }
+}
+
+#[test]
+fn a_linkage_closes_beside_a_joint_that_is_far_away() {
+    for turn in ANYWHERE {
+        let turned = Turned(turn);
+        let [a, p, q] = [0.04, 0.2, 9.0].map(|along| turned.vector([along, 0.0, 0.0], "m"));
+        let (x, z) = (turned.direction([1.0, 0.0, 0.0]), turned.direction([0.0, 0.0, 1.0]));
+        let text = format!(
+            "gravity = {gravity}
+[points]
+O = [0, 0, 0]
+A = {a}
+P = {p}
+Q = {q}
+[bodies]
+arm = {{ rod = [\"O\", \"A\"], radius = \"12 mm\", density = \"7850 kg/m^3\" }}
+rod = {{ rod = [\"A\", \"P\"], radius = \"10 mm\", density = \"7850 kg/m^3\" }}
+piston = {{ mass = \"1.2 kg\", centre = \"P\" }}
+wheel = {{ mass = \"1 kg\", centre = \"Q\", inertia = [\"1e-2 kg m^2\", \"1e-2 kg m^2\", \"1e-2 kg m^2\"] }}
+[joints]
+R1 = {{ revolute = [\"ground\", \"arm\"], at = \"O\", axis = {z}, drive = \"2*pi*5 Hz*t\" }}
+R2 = {{ revolute = [\"arm\", \"rod\"], at = \"A\", axis = {z} }}
+R3 = {{ revolute = [\"rod\", \"piston\"], at = \"P\", axis = {z} }}
+P4 = {{ prismatic = [\"ground\", \"piston\"], at = \"P\", axis = {x} }}
+R5 = {{ revolute = [\"ground\", \"wheel\"], at = \"Q\", axis = {z}, damping = \"0.1 N m s\" }}
+",
+            gravity = turned.vector([0.0, -9.81, 0.0], "m/s^2"),
+        );
+        assert_eq!(compiled(&text).analysis.mobility, 2, "{turn:?}");
+    }
+}
+
+/// A Geneva drive whose plane is level: nothing turns it, so that forces on its joints are rounding.
+fn geneva(turn: ([f64; 3], f64)) -> String {
+    let turn = Turned(turn);
+    let reach = 0.04 * 0.5_f64.sqrt();
+    format!(
+        "gravity = {gravity}
+[points]
+O = [0, 0, 0]
+C = {c}
+P = {p}
+[bodies]
+crank = {{ rod = [\"O\", \"P\"], radius = \"4 mm\", density = \"7850 kg/m^3\" }}
+wheel = {{ mass = \"0.4 kg\", centre = \"C\", inertia = [\"1e-4 kg m^2\", \"1e-4 kg m^2\", \"1e-4 kg m^2\"] }}
+[joints]
+R1 = {{ revolute = [\"ground\", \"crank\"], at = \"O\", axis = {z}, drive = \"2*pi*1 Hz*t\" }}
+R2 = {{ revolute = [\"ground\", \"wheel\"], at = \"C\", axis = {z} }}
+pin = {{ slot = [\"wheel\", \"crank\"], at = \"P\", axis = {z}, first = {first} }}
+",
+        gravity = turn.vector([0.0, 0.0, -9.81], "m/s^2"),
+        c = turn.vector([2.0 * reach, 0.0, 0.0], "m"),
+        p = turn.vector([reach, -reach, 0.0], "m"),
+        z = turn.direction([0.0, 0.0, 1.0]),
+        first = turn.direction([1.0, 1.0, 0.0]),
+    )
+}
+
+#[test]
+fn rounding_of_forces_is_no_jump_where_an_angle_passes_half_a_turn() {
+    for turn in ANYWHERE {
+        let text = geneva(turn);
+        assert_eq!(compiled(&text).warnings, [], "{turn:?}");
+        let integrator = Integrator::Dopri5 { tolerance: 1e-9, max_step: None };
+        // The angle of the pin in its slot passes half a turn after a quarter of a second.
+        let run = run_with(&text, &Settings::new(integrator, Span::Time(0.3), 11));
+        assert!(run.column("pin.q2").expect("pin.q2").iter().any(|angle| *angle > PI), "{turn:?}");
+    }
+}
+
 /// A socket that turns about a horizontal axis, on a ball or a pin of a weight that only a vertical guide lets move.
 fn guided(joint: &str, more: &str) -> String {
     format!(

@@ -17,6 +17,9 @@ const HALVINGS: usize = 36;
 /// Part of the largest force of the step by which such positions cannot differ, unless it changes by a hundred thousand times itself in a
 /// radian.
 const JUMP: f64 = 1e-7;
+/// Positions on each side, and how much more a jump is than their forces differ by among themselves; as in runs.
+const NEIGHBOURS: u32 = 6;
+const ABOVE_ROUNDING: f64 = 16.0;
 
 /// Warns for every angle of a cut joint that would make a force jump.
 pub fn angle_jumps(case: &Case<'_>, course: &Course<'_>) -> Vec<Diagnostic> {
@@ -63,8 +66,21 @@ fn jump(case: &Case<'_>, course: &Course<'_>, (from, end): (&Waypoint, f64), pla
     let ends = [forces(from.t), forces(end)].into_iter().flatten().flatten();
     let sizes = one.iter().chain(&other).copied().chain(ends);
     let largest = sizes.fold(0.0_f64, |most, force| most.max(force.abs()));
-    let differs = one.iter().zip(&other).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-    (differs > JUMP * largest).then_some(high)
+    let across = farthest(&one, &other);
+    if across <= JUMP * largest {
+        return None;
+    }
+    let side = |place: f64, away: f64, own: &[f64]| {
+        let others = (1..NEIGHBOURS).filter_map(|step| forces(place + away * f64::from(step)));
+        others.fold(0.0, |most, other| f64::max(most, farthest(own, &other)))
+    };
+    let rounding = f64::max(side(low, low - high, &one), side(high, high - low, &other));
+    (across > ABOVE_ROUNDING * rounding).then_some(high)
+}
+
+/// The largest difference of forces.
+fn farthest(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
 fn warning(mechanism: &Mechanism, course: &Course<'_>, angle: &str, t: f64) -> Diagnostic {

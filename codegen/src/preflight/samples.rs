@@ -29,6 +29,14 @@ const ITERATIONS: usize = 19;
 pub const STEP: f64 = 0.25;
 /// Loops count as closed below this residual [rad, own units]; Newton ends near 1e-15.
 const CLOSED: f64 = 1e-11;
+/// Where joints are far beside the loops' own lever arms, as of several linkages along a line, loops close to the same part of the arms,
+/// down to this part of [`CLOSED`], below which is rounding.
+const CLOSER: f64 = 1e-3;
+
+/// Rows below this [own units] are rounding: a hinge or a slide that moves a row does so by its lever, which counts beside one, and
+/// sums of levers leave 1e-15 of it. Plane loops that lie askew have nothing else in the rows out of their plane, which are zeros where
+/// the plane is one of the drawing's; scaled up they would look like constraints.
+const UNMOVED: f64 = 1e-12;
 
 /// One closed position.
 #[derive(Clone, Debug)]
@@ -77,6 +85,7 @@ impl ClosedPositions {
         let mut positions = vec![walker.position(state.q)];
         let mut open = Vec::new();
         let mut generator = 0x2545_F491_4F6C_DD1D_u64;
+        let closed = CLOSED * (arm / walker.units.length).clamp(CLOSER, 1.0);
         let steps = if walker.system.sizes().all_speeds < LARGE { MANY_STEPS } else { FEW_STEPS };
         let mut direction = None;
         for step in 0..steps {
@@ -85,7 +94,7 @@ impl ClosedPositions {
                 direction = None;
             }
             let from = if step == steps / 2 { 0 } else { positions.len() - 1 };
-            match walker.step(&positions[from], &mut direction, &mut generator) {
+            match walker.step(&positions[from], closed, &mut direction, &mut generator) {
                 Some(Ended::Closed(next)) => positions.push(next),
                 Some(Ended::Open(residual)) => open.push(residual),
                 None => {}
@@ -138,7 +147,7 @@ impl Walker<'_> {
         let OwnUnits { speeds, rows, .. } = self.units;
         let residuals = residuals.iter().zip(rows).map(|(residual, unit)| residual / unit);
         let residuals = DVector::from_iterator(rows.len(), residuals);
-        (residuals, jacobian.scaled(|row, speed| speeds[speed] / rows[row]))
+        (residuals, jacobian.scaled(|row, speed| speeds[speed] / rows[row]).without_rows_below(UNMOVED))
     }
 
     /// Mass matrix of all speeds, in own units but for a common factor.
@@ -183,7 +192,13 @@ impl Walker<'_> {
     }
 
     /// A step along a direction that the loops allow, then Newton back onto the closed positions.
-    fn step(&self, from: &Position, last: &mut Option<DVector<f64>>, generator: &mut u64) -> Option<Ended> {
+    fn step(
+        &self,
+        from: &Position,
+        closed: f64,
+        last: &mut Option<DVector<f64>>,
+        generator: &mut u64,
+    ) -> Option<Ended> {
         let free = from.freedoms(&self.joint_speeds);
         if free.ncols() == 0 {
             return None;
@@ -205,18 +220,23 @@ impl Walker<'_> {
         *last = Some(scaled.clone());
         let mut q = from.q.clone();
         self.layout.advance(&mut q, &self.all_speeds(&scaled));
-        self.close(q, RANK_TOLERANCE)
+        self.close_within(q, RANK_TOLERANCE, closed)
     }
 
     /// Newton by the joint speeds; directions below a part of the strongest one are not followed. `None` where it does not
     /// converge.
-    pub fn close(&self, mut q: Vec<f64>, tolerance: f64) -> Option<Ended> {
+    pub fn close(&self, q: Vec<f64>, tolerance: f64) -> Option<Ended> {
+        self.close_within(q, tolerance, CLOSED)
+    }
+
+    /// The same until residuals are below a bound.
+    fn close_within(&self, mut q: Vec<f64>, tolerance: f64, closed: f64) -> Option<Ended> {
         let mut before = f64::INFINITY;
         for iteration in 0..=ITERATIONS {
             let (phi, jacobian) = self.equations(&q);
             let size = phi.amax();
             let stalled = iteration == ITERATIONS && size > STALLED * before;
-            if size < CLOSED || (stalled && size < CLOSED_AT_START) {
+            if size < closed || (stalled && size < CLOSED_AT_START) {
                 return Some(Ended::Closed(Position::new(q, phi, jacobian)));
             }
             if iteration == ITERATIONS {

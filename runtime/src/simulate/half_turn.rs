@@ -15,6 +15,11 @@ const LAST_PLACES: f64 = 64.0 * f64::EPSILON;
 /// Part of the largest force of the step by which such states cannot differ, unless it changes a thousandfold over the step. At the half turn
 /// itself a force may go through zero, and be all that there is.
 const JUMP: f64 = 1e-7;
+/// States on each side. Where rounding is all that is left of the forces, those of one side differ among themselves as they do from the
+/// other side's.
+const NEIGHBOURS: u32 = 6;
+/// A jump is more than this times what those of one side differ by: of six that round, the farthest are a third of their range apart at least.
+const ABOVE_ROUNDING: f64 = 16.0;
 
 /// Writes the state at a time within the step.
 type Within<'a> = &'a dyn Fn(f64, &mut [f64]);
@@ -50,16 +55,28 @@ pub(super) fn check(
     let (from, to) = crossing.between;
     // A step may be so short that a part of it is no other time: the jump itself shortens it.
     let aside = (ASIDE * (to - from)).max(LAST_PLACES * to.abs());
-    let [begin, one, other, end] = [from, before - aside, after + aside, to].map(|t| {
+    let mut at = |t: f64| {
         within(t, &mut state);
         forces(motion, t, &state)
-    });
-    let differs = one.iter().zip(&other).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()));
-    let size = [begin, one, other, end].iter().map(|forces| largest(forces)).fold(0.0, f64::max);
-    if differs > JUMP * size {
+    };
+    let ends = [from, to].map(&mut at);
+    let mut side = |place: f64, away: f64| -> Vec<Vec<f64>> {
+        (1..=NEIGHBOURS).map(|step| at(place + away * f64::from(step))).collect()
+    };
+    let sides = [side(before, -aside), side(after, aside)];
+    let across = farthest(&sides[0][0], &sides[1][0]);
+    let among = |side: &Vec<Vec<f64>>| side.iter().map(|other| farthest(&side[0], other)).fold(0.0, f64::max);
+    let rounding = sides.iter().map(among).fold(0.0, f64::max);
+    let size = ends.iter().chain(sides.iter().flatten()).map(|forces| largest(forces)).fold(0.0, f64::max);
+    if across > JUMP * size && across > ABOVE_ROUNDING * rounding {
         return Err(RunError::AngleJumps { t: after, angle: name.to_owned() });
     }
     Ok(())
+}
+
+/// The largest difference of forces.
+fn farthest(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
 /// Forces on all speeds at a state, without those of joints.

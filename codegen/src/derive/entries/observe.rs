@@ -9,6 +9,7 @@ use super::joint_forces::JointForces;
 use super::names::{number_among, units};
 use super::own_states::unit;
 use crate::derive::attachment::{NodePose, NodeShape};
+use crate::derive::frame::Frame;
 use crate::derive::geometry::Geometry;
 use crate::derive::joint_markers::joint_links;
 use crate::derive::link_mass::LinkMass;
@@ -119,6 +120,30 @@ impl<'a, 'g> Channels<'a, 'g> {
             let rotation = state.motion.poses.world_of(g, motion.beside()).rotation;
             self.vector(name, "", "m", rotation * motion.distance);
             self.vector(name, "v", "m/s", rotation * motion.slide);
+        }
+        if data.clearance.is_some() && (data.model.is_ball() || data.model.is_cross()) {
+            self.offset_in_socket(joint);
+        }
+    }
+
+    /// Offset of a ball along axes that go with its socket and are those of W at the reference pose. A run has it along axes that suit the
+    /// equations; where these are the same ones the columns of the contact tell it.
+    fn offset_in_socket(&mut self, joint: JointId) {
+        let (state, geometry) = (&self.instant.state, self.deriver.geometry);
+        let (g, linkage) = (geometry.g, geometry.linkage);
+        let data = geometry.mechanism.joint(joint);
+        let motion = state.relative_motion(joint);
+        let axes = match linkage.link_of_joint[joint.index()] {
+            None => linkage.frame(motion.parent.link).times(&motion.parent.frame),
+            Some(_) => linkage.moved_link(joint, data.model.offsets().start).frame,
+        };
+        if axes == Frame::IDENTITY && !linkage.reversed[joint.index()] {
+            return;
+        }
+        let offset = state.motion.poses.world_of(g, motion.beside()).rotation * motion.distance;
+        for (place, axis) in XYZ.iter().enumerate() {
+            let along = state.taken_along(data.parent, g.vector(Frame::IDENTITY.axis(place)));
+            self.push(format!("{}.{axis}", data.name), "m", along.dot(offset));
         }
     }
 
