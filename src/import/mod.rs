@@ -12,6 +12,7 @@ mod names;
 mod part;
 mod place;
 mod robot;
+mod shells;
 mod solid;
 mod stl;
 mod urdf;

@@ -3,7 +3,8 @@
 
 use super::error::ImportError;
 use super::names::Names;
-use super::solid::{Solid, bounds};
+use super::shells::bounds;
+use super::solid::Solid;
 use super::stl::triangles;
 use super::write::{comment, mass_keys};
 

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 
 use super::mass::Mass;
 use super::place::{cross, dot};
+use super::shells::{bounds, hole_in_nothing};
 use super::stl::Triangle;
 
 /// A volume below this share of the cube of its size is rounding of coordinates with seven digits.
@@ -63,6 +64,11 @@ impl Solid {
                 (false, product) => product,
             })
         });
+        if let Some([x, y, z]) = hole_in_nothing(triangles) {
+            return Err(format!(
+                "a part of its surface faces inwards and lies in no other (at {x:.4e}, {y:.4e}, {z:.4e} m): a hole in nothing"
+            ));
+        }
         let volume = volume.abs() * size.powi(3);
         let unit =
             Mass { mass: volume, centre: std::array::from_fn(|i| middle[i] + size * centre[i]), inertia };
@@ -82,18 +88,6 @@ impl Solid {
     pub fn of_mass(&self, mass: f64) -> Mass {
         Mass { mass, ..self.unit.scaled(mass / self.volume) }
     }
-}
-
-/// Least and greatest coordinates.
-pub fn bounds(triangles: &[Triangle]) -> ([f64; 3], [f64; 3]) {
-    let mut bounds = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    for corner in triangles.iter().flatten() {
-        for (i, x) in corner.iter().enumerate() {
-            bounds.0[i] = bounds.0[i].min(*x);
-            bounds.1[i] = bounds.1[i].max(*x);
-        }
-    }
-    bounds
 }
 
 /// Whether every edge has a triangle on both sides, which go along it in opposite directions.

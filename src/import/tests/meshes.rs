@@ -135,6 +135,44 @@ fn round_solids_come_near_to_their_formulas_as_their_sides_do() {
     assert_near(&ellipsoid.of_mass(2.0), &Shape::Sphere { radius }.of_mass(2.0), 1e-15);
 }
 
+/// A box that faces inwards, in a place.
+fn hole(size: [f64; 3], origin: [f64; 3]) -> Vec<Triangle> {
+    let mut mesh = moved(&block(size), &Place { origin, ..Place::default() });
+    mesh.iter_mut().for_each(|triangle| triangle.swap(0, 1));
+    mesh
+}
+
+#[test]
+fn a_surface_turned_inwards_is_a_hole_within_another_only() {
+    let whole = block([2.0, 2.0, 2.0]);
+    let volume = |parts: &[&[Triangle]]| Solid::enclosed(&parts.concat()).map(|solid| solid.volume);
+    let within = hole([0.5, 0.5, 0.5], [0.3, 0.4, 0.5]);
+    // On a face of the whole, on that of another hole, and a solid in a hole.
+    let (on_face, beside) =
+        (hole([0.5, 0.5, 0.5], [0.3, 0.4, 0.0]), hole([0.5, 0.5, 0.4], [0.8, 0.45, 0.55]));
+    let island = moved(&block([0.1, 0.1, 0.1]), &Place { origin: [0.5, 0.6, 0.7], ..Place::default() });
+    for (parts, expected) in [
+        (vec![&whole[..], &within], 8.0 - 0.125),
+        (vec![&within, &whole], 8.0 - 0.125),
+        (vec![&whole, &on_face], 8.0 - 0.125),
+        (vec![&whole, &within, &beside], 8.0 - 0.125 - 0.1),
+        (vec![&whole, &within, &island], 8.0 - 0.125 + 0.001),
+    ] {
+        let found = volume(&parts).expect("holes within");
+        // Sums of some products of numbers below 8.
+        assert!((found - expected).abs() < 1e-14 * 8.0, "{found}, not {expected}");
+    }
+    let aside = hole([0.5, 0.5, 0.5], [5.0, 0.0, 0.0]);
+    let nested = hole([0.1, 0.1, 0.1], [0.5, 0.6, 0.7]);
+    let flush = hole([0.5, 0.5, 0.5], [0.3, 0.4, 2.0]);
+    for parts in
+        [vec![&whole[..], &aside], vec![&aside, &whole], vec![&whole, &flush], vec![&whole, &within, &nested]]
+    {
+        let why = volume(&parts).expect_err("a hole in nothing");
+        assert!(why.contains("a hole in nothing"), "{why}");
+    }
+}
+
 #[test]
 fn surfaces_that_enclose_nothing_are_told() {
     let mut open = block([1.0, 1.0, 1.0]);
