@@ -140,7 +140,10 @@ fn a_mechanism_of_any_size_and_speed_is_judged_alike() {
                 let compiled = compiled(body, "", &[("s", size.to_owned()), ("speed", speed.to_owned())]);
                 let warnings: Vec<_> =
                     compiled.warnings.iter().map(|warning| warning.code.as_str()).collect();
-                assert!(warnings.iter().all(|code| *code == "W0104"), "{case}: {warnings:?}");
+                // No material stands cranks of a metre at 10,000 turns a second.
+                let bursts = speed == "1e4 Hz" && !size.contains('-');
+                let is_known = |code: &str| code == "W0104" || (code == "W0126" && bursts);
+                assert!(warnings.iter().all(|code| is_known(code)), "{case}: {warnings:?}");
                 assert_eq!(compiled.analysis.mobility, mobility, "{case}");
                 assert_eq!(compiled.analysis.redundant.len(), redundant, "{case}");
                 assert_eq!(compiled.analysis.idle.len(), idle, "{case}: {:?}", compiled.analysis.idle);

@@ -1,8 +1,6 @@
 //! What takes energy out of a mechanism, more than anything does: coefficients of friction, damping ratios of modes. In: a mechanism.
 //! Out: warnings, each with the number that is odd.
 
-use linkwear_runtime::contact::Strength;
-
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Body, Joint, Mechanism, Passive};
 use crate::source::Span;
@@ -23,12 +21,8 @@ fn frictions(mechanism: &Mechanism, joint: &Joint) -> Vec<Diagnostic> {
     let values = mechanism.parameter_values();
     let contact = joint.clearance.as_ref().and_then(|clearance| {
         let (strength, ..) = clearance.laws.friction?;
-        let most = match strength {
-            Strength::Coulomb { coefficient } => coefficient,
-            Strength::Stribeck { static_coefficient, kinetic_coefficient, .. } => {
-                static_coefficient.max(kinetic_coefficient)
-            }
-        };
+        let (moving, at_rest) = strength.given();
+        let most = at_rest.map_or(moving, |(at_rest, _)| at_rest.max(moving));
         Some((most, clearance.places.friction))
     });
     let dry = joint.passive.iter().filter_map(|passive| match passive {
