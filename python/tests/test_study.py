@@ -23,7 +23,7 @@ def test_a_grid(command_line: Any) -> None:
     failed = np.isnan(ours["peak.R1.F"])
     assert failed.tolist() == [error is not None for error in ours.errors] == [False, True] * 3
     frame = ours.to_pandas()
-    assert list(frame.columns) == ["speed [Hz]", "L1 [m]", "peak.R1.F [N]", "peak.R1.drive [N m]", "error"]
+    assert list(frame.columns) == ["speed [1/s]", "L1 [m]", "peak.R1.F [N]", "peak.R1.drive [N m]", "error"]
     assert ours.to_arrow().column(2).null_count == 3
     assert pickle.loads(pickle.dumps(ours)).to_dict() == ours.to_dict()
 

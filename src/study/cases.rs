@@ -66,10 +66,7 @@ impl Cases {
         let varying = || points.axes().iter().filter_map(|axis| of(&axis.name));
         let is_folded = |parameter: &&Parameter| !parameter.tunable && !parameter.input;
         let parameters = varying()
-            .map(|parameter| {
-                let unit = parameter.dimension.unit_counting(parameter.turning);
-                StudyColumn::parameter(&parameter.name, unit)
-            })
+            .map(|parameter| StudyColumn::parameter(&parameter.name, parameter.dimension.si_unit()))
             .collect();
         let folded = varying().filter(is_folded).map(|parameter| parameter.name.clone()).collect();
         let (source, options) = (source.clone(), options.clone());

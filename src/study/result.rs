@@ -37,7 +37,7 @@ impl StudyColumn {
         Self { name: name.to_owned(), unit, kind: Kind::Parameter }
     }
 
-    /// `speed [Hz]`; the code of an error has no unit.
+    /// `speed [1/s]`; the code of an error has no unit.
     pub fn title(&self) -> String {
         if self.kind == Kind::Error { self.name.clone() } else { format!("{} [{}]", self.name, self.unit) }
     }
