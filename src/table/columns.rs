@@ -95,7 +95,7 @@ const SAMPLES: &[(&str, &[&str], &str)] = &[
     (
         "<element>.M<axis>",
         &["N m"],
-        "Moment of the same about the joint, or about the second body's point of a bushing",
+        "Moment of the same about the joint's point of the child, which on a slide moves with it; of a bushing about the second body's point",
     ),
     ("<joint>.spring_M<axis>", &["N m"], "Moment of the spring of a spherical joint on the child"),
     ("<joint>.drive", &["N m", "N"], "Moment or force that the drive exerts on the child"),

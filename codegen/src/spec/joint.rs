@@ -173,7 +173,7 @@ tables! {
         /// Radius of the bearing of a revolute joint.
         /// [m; above 0; required of a revolute joint; e.g. "10 mm"]
         pub radius: Option<Quantity>,
-        /// Distance of the two places that carry moments across the axis.
+        /// Distance of the two places that carry moments across the axis, on the second body.
         /// [m; above 0; default one place, which carries the force alone; e.g. "80 mm"]
         pub length: Option<Quantity>,
     }
