@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 
 use crate::manifold::groups;
 use crate::mission::{MissionInfo, SegmentInfo};
+pub use crate::tables::SAMPLE;
 use crate::tables::{AllTables, CoefficientRow, ContactInfo, InputRole, JournalWear, Motion, Tables};
-pub use crate::tables::{MODE, SAMPLE};
 use crate::text::Text;
 use crate::wear::Step;
 
@@ -81,6 +81,9 @@ pub const ROW: &str = "t.row";
 pub const NEXT: &str = ".next";
 /// How the name of a speed ends that is no speed but a value.
 pub const VALUE: &str = ".value";
+
+/// How names of modal coordinates of a flexible body go on behind that of the body; their numbers follow, from 1.
+pub const MODE: &str = ".eta";
 
 /// A factor on the wear coefficient of a joint, by the state of its contact.
 #[derive(Clone, Debug, PartialEq)]

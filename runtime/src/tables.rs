@@ -146,9 +146,6 @@ pub type MissionRow = (&'static str, bool, &'static [SegmentRow], &'static [Segm
 /// the controller holds from its next sample on: `<name>` with `.next`, held by the speed `<name>` with `.value`.
 pub const SAMPLE: &str = "t.sample";
 
-/// How names of modal coordinates of a flexible body go on behind that of the body; their numbers follow, from 1.
-pub const MODE: &str = ".eta";
-
 /// All that generated code says about itself: its tables, and those that few mechanisms have.
 #[derive(Clone, Copy, Debug)]
 pub struct AllTables {
