@@ -55,13 +55,18 @@ pub fn bounds(triangles: &[Triangle]) -> ([f64; 3], [f64; 3]) {
     bounds
 }
 
+/// What two corners in the same place have in common.
+pub fn key(corner: [f64; 3]) -> [u64; 3] {
+    // The sum makes -0 to 0.
+    corner.map(|x| (x + 0.0).to_bits())
+}
+
 /// Triangles that hang together by corners.
 fn shells(triangles: &[Triangle]) -> Vec<Vec<Triangle>> {
     let mut numbers = HashMap::new();
     let mut above: Vec<usize> = Vec::new();
     let mut corner = |corner: [f64; 3], above: &mut Vec<usize>| {
-        // The sum makes -0 to 0.
-        *numbers.entry(corner.map(|x| (x + 0.0).to_bits())).or_insert_with(|| {
+        *numbers.entry(key(corner)).or_insert_with(|| {
             above.push(above.len());
             above.len() - 1
         })

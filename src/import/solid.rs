@@ -5,7 +5,7 @@ use std::collections::HashMap;
 
 use super::mass::Mass;
 use super::place::{cross, dot};
-use super::shells::{bounds, hole_in_nothing};
+use super::shells::{bounds, hole_in_nothing, key};
 use super::stl::Triangle;
 
 /// A volume below this share of the cube of its size is rounding of coordinates with seven digits.
@@ -92,14 +92,12 @@ impl Solid {
 
 /// Whether every edge has a triangle on both sides, which go along it in opposite directions.
 fn closed(triangles: &[Triangle]) -> Result<(), String> {
-    // The sum makes -0 to 0.
-    let bits = |corner: [f64; 3]| corner.map(|x| (x + 0.0).to_bits());
     let mut numbers = HashMap::new();
     let mut edges: HashMap<(usize, usize), (i64, i64)> = HashMap::new();
     for triangle in triangles {
         let corners = triangle.map(|corner| {
             let next = numbers.len();
-            *numbers.entry(bits(corner)).or_insert(next)
+            *numbers.entry(key(corner)).or_insert(next)
         });
         let [a, b, c] = corners;
         // Of two equal corners no edge is left, and the other two are one.

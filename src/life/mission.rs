@@ -58,9 +58,7 @@ impl LifeStudy<'_> {
             }
         }
     }
-}
 
-impl LifeStudy<'_> {
     /// The name of the mission, if every segment of it gives this parameter or input a value of its own. These count after the
     /// mechanism's, so that the life does not depend on it. A mission that cannot be chosen is told by the life itself.
     pub(crate) fn set_throughout(&self, name: &str) -> Option<&str> {

@@ -1,13 +1,14 @@
 //! Speeds that nothing made of matter stands: a slip of a unit or an exponent. In: a mechanism; its drivers, run by the interpreter.
 //! Out: warnings. Never knows loops.
 
-use linkwear_runtime::{Description, DriverInfo, Entry, System};
+use linkwear_runtime::{Description, DriverInfo, System};
 
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::{Carrier, Coordinate, Joint, Mechanism, Start};
 
+use super::failures::named;
 use super::plausible::{length, shown, with_unit};
-use super::samples::evaluate;
+use super::prescribed::laws_at;
 
 /// Speed [m/s] of the end of a turning body above which no material holds: a ring bears a speed of sqrt(strength/density), at most
 /// 2 km/s with the strongest fibres.
@@ -37,21 +38,16 @@ pub fn fast_drives(
     description: &Description,
     system: &dyn System<f64>,
 ) -> Vec<Diagnostic> {
-    let mut input: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
-    let time = input.len();
-    input.push(0.0);
-    let mut output = vec![0.0; system.sizes().output(Entry::Prescribed)];
     let mut fastest = vec![0.0_f64; description.drivers.len()];
     for step in 0..TIMES {
-        input[time] = FIRST * LATER.powi(step);
-        evaluate(system, Entry::Prescribed, &input, &mut output);
-        for (fastest, law) in fastest.iter_mut().zip(output.chunks_exact(3)) {
-            *fastest = fastest.max(law[1].abs());
+        let laws = laws_at(FIRST * LATER.powi(step), description, system);
+        for (fastest, [_, speed, _]) in fastest.iter_mut().zip(laws) {
+            *fastest = fastest.max(speed.abs());
         }
     }
     let drivers = description.drivers.iter().zip(fastest);
     let remark = |(driver, speed): (&DriverInfo, f64)| {
-        let joint = mechanism.joints.iter().find(|joint| joint.name == *driver.joint)?;
+        let joint = named(mechanism, &driver.joint)?;
         Some(fast(mechanism, joint, driver.angular, speed)?.at(joint.span, "driven here"))
     };
     drivers.filter_map(remark).collect()

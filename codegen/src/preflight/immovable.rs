@@ -20,7 +20,7 @@ pub fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
         analysis.speeds, analysis.independent_rows
     );
     let cut = analysis.cuts.first().and_then(|cut| named(mechanism, cut));
-    let couplings: Vec<&Coupling> = rigid_couplings(mechanism).collect();
+    let couplings: Vec<&Coupling> = mechanism.rigid_couplings().collect();
     let diagnostic = Diagnostic::new(Code::Locked, message);
     // Without a loop of joints it is the couplings that hold them.
     if cut.is_none() && !couplings.is_empty() {
@@ -32,11 +32,6 @@ pub fn locked(mechanism: &Mechanism, analysis: &Analysis) -> Diagnostic {
         "the joints {names} form a structure; free one of them (for instance make a revolute spherical) \
          or correct axes that should be parallel or meet in a point"
     ))
-}
-
-/// Couplings that do not give way.
-fn rigid_couplings(mechanism: &Mechanism) -> impl Iterator<Item = &Coupling> {
-    mechanism.couplings.iter().filter(|coupling| coupling.compliance.is_none())
 }
 
 /// What helps where couplings leave no motion.
@@ -101,7 +96,7 @@ pub fn conflicts(
 fn held_without_driver(mechanism: &Mechanism, driven: JointId, rigid: &[JointId]) -> Option<String> {
     let names = quoted(rigid.iter().map(|joint| mechanism.joint(*joint).name.as_str()));
     let ties = |coupling: &&Coupling| coupling.terms.iter().all(|term| rigid.contains(&term.joint));
-    let couplings: Vec<&Coupling> = rigid_couplings(mechanism).filter(ties).collect();
+    let couplings: Vec<&Coupling> = mechanism.rigid_couplings().filter(ties).collect();
     // One alone leaves joints their motion; several of the same joints may not.
     let of_driven = couplings.iter().filter(|one| one.terms.iter().any(|term| term.joint == driven)).count();
     rigid.contains(&driven).then(|| match of_driven {

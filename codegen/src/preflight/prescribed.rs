@@ -10,6 +10,15 @@ use crate::source::SourceFile;
 use super::failures;
 use super::samples::evaluate;
 
+/// Position, speed and acceleration that every driver prescribes at a time [rad or m, s].
+pub(super) fn laws_at(t: f64, description: &Description, system: &dyn System<f64>) -> Vec<[f64; 3]> {
+    let defaults = description.parameters.iter().map(|parameter| parameter.default);
+    let input: Vec<f64> = defaults.chain([t]).collect();
+    let mut output = vec![0.0; system.sizes().output(Entry::Prescribed)];
+    evaluate(system, Entry::Prescribed, &input, &mut output);
+    output.as_chunks().0.to_vec()
+}
+
 /// Evaluates the laws of all drivers at t = 0, where every run starts.
 ///
 /// # Errors
@@ -20,12 +29,8 @@ pub fn check_prescribed(
     description: &Description,
     system: &dyn System<f64>,
 ) -> Result<(), Diagnostics> {
-    let mut input: Vec<f64> = description.parameters.iter().map(|parameter| parameter.default).collect();
-    input.push(0.0);
-    let mut output = vec![0.0; system.sizes().output(Entry::Prescribed)];
-    evaluate(system, Entry::Prescribed, &input, &mut output);
-    let errors: Vec<_> = output
-        .chunks_exact(3)
+    let errors: Vec<_> = laws_at(0.0, description, system)
+        .iter()
         .zip(description.drivers.iter())
         .filter(|(law, _)| law.iter().any(|value| !value.is_finite()))
         .map(|(law, driver)| {

@@ -70,8 +70,8 @@ struct Reader<'a, 'i> {
 impl<'a, 'i> Reader<'a, 'i> {
     fn visit<'de, V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
         let result = match self.value.get_ref() {
-            DeValue::Table(table) => visitor.visit_map(Entries::new(table, None, self.notes)),
-            DeValue::Array(items) => visitor.visit_seq(Items { rest: items.iter(), notes: self.notes }),
+            DeValue::Table(table) => visitor.visit_map(self.entries(table, None)),
+            DeValue::Array(items) => visitor.visit_seq(self.items(items)),
             DeValue::String(text) => visitor.visit_str(text),
             DeValue::Boolean(value) => visitor.visit_bool(*value),
             DeValue::Integer(number) => integer(number).and_then(|value| visitor.visit_i64(value)),
@@ -96,6 +96,10 @@ impl<'a, 'i> Reader<'a, 'i> {
     /// The value is not what is needed.
     fn not(self, needed: &dyn Expected) -> Failure {
         self.place(Failure::invalid_type(unexpected(self.value.get_ref()), needed))
+    }
+
+    fn items(self, items: &'a [Spanned<DeValue<'i>>]) -> Items<'a, 'i> {
+        Items { rest: items.iter(), notes: self.notes }
     }
 
     fn entries(self, table: &'a DeTable<'i>, fields: Option<&[&str]>) -> Entries<'a, 'i> {
@@ -142,9 +146,7 @@ impl<'de> Deserializer<'de> for Reader<'_, '_> {
     }
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Failure> {
         match self.value.get_ref() {
-            DeValue::Array(items) => {
-                self.placed(visitor.visit_seq(Items { rest: items.iter(), notes: self.notes }))
-            }
+            DeValue::Array(items) => self.placed(visitor.visit_seq(self.items(items))),
             _ => Err(self.not(&visitor)),
         }
     }
