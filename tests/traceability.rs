@@ -81,7 +81,7 @@ fn every_row_names_a_function_and_a_test_that_exist() {
 #[test]
 fn citations_in_the_source_and_rows_are_the_same_equations() {
     let mut files = Vec::new();
-    for folder in ["codegen/src", "gamma/src", "runtime/src"] {
+    for folder in ["codegen/src", "reader/src", "gamma/src", "runtime/src"] {
         sources(Path::new(folder), &mut files);
     }
     let texts = files.iter().map(|file| fs::read_to_string(file).expect("a source file"));

@@ -1,6 +1,6 @@
 //! Compiles a linkage described in TOML into specialised solver code.
 //!
-//! Data flows one way: toml -> [`spec`] -> [`model`] -> [`derive`](mod@derive) -> [`expr`] -> [`tape`] ->
+//! Data flows one way: toml -> [`spec`], which is the crate `linkwear-reader`, -> [`model`] -> [`derive`](mod@derive) -> [`expr`] -> [`tape`] ->
 //! [`backend`]s; [`mod@compile`] calls the stages in order. A build script needs only [`Builder`].
 
 #![deny(
@@ -17,22 +17,18 @@ pub mod builder;
 pub mod compile;
 mod decompose;
 pub mod derive;
-pub mod diagnostic;
 pub mod expr;
 pub mod flexible;
 pub mod id;
-pub mod input;
-pub mod limits;
 pub mod model;
 pub mod preflight;
 pub mod render;
-pub mod source;
 mod sparse_rows;
-pub mod spec;
 pub mod tape;
 
 pub use builder::Builder;
 pub use compile::{Compiled, Options, compile};
 pub use diagnostic::Diagnostics;
+pub use linkwear_reader::{diagnostic, input, limits, source, spec};
 pub use model::Closure;
 pub use source::SourceFile;

@@ -5,7 +5,7 @@ mod source;
 use linkwear_codegen::spec::FORCE_KINDS;
 use source::files_with;
 
-const TABLE: &str = "codegen/src/spec/force.rs";
+const TABLE: &str = "reader/src/spec/force.rs";
 const EQUATIONS: &str = "codegen/src/derive/elements/forces.rs";
 
 #[test]

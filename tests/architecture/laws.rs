@@ -11,7 +11,7 @@ use crate::source::{code, rust_files};
 
 /// Files of the product in which one of the texts stands outside comments and tests.
 fn files_with(texts: &[String]) -> BTreeSet<String> {
-    let roots = ["codegen/src", "runtime/src", "gamma/src", "src"];
+    let roots = ["codegen/src", "reader/src", "runtime/src", "gamma/src", "src"];
     let files = roots.iter().flat_map(|root| rust_files(Path::new(root)));
     let files = files.filter(|file| {
         !file.ends_with("tests.rs") && !file.components().any(|part| part.as_os_str() == "tests")

@@ -31,12 +31,13 @@ fn backticked(cell: &str) -> Vec<String> {
     cell.split('`').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
-/// Names that `lib.rs` re-exports, each with the module it comes from.
+/// Names that `lib.rs` re-exports, each with the module it comes from. A module of another crate is one of its own.
 fn reexports(lib: &str) -> BTreeMap<String, String> {
     let statements = lib.split("pub use ").skip(1).filter_map(|rest| rest.split(';').next());
     let names = statements.flat_map(|statement| expanded(statement.trim()));
     let module = |path: Vec<String>| path.into_iter().find(|segment| segment != "crate").unwrap_or_default();
-    names.map(|(path, name)| (name, module(path))).collect()
+    let names = names.map(|(path, name)| (name, module(path)));
+    names.filter(|(_, module)| !module.starts_with("linkwear_")).collect()
 }
 
 /// The module a file belongs to: first folder or file name below the source folder.
@@ -78,6 +79,15 @@ fn assert_clean(root: &str, heading: &str) {
 #[test]
 fn the_generator_has_only_the_allowed_arrows() {
     assert_clean("codegen/src", "Allowed arrows: codegen");
+    for file in rust_files(Path::new("codegen/src")) {
+        let by_module = file.ends_with("lib.rs") || !code(&file).contains("linkwear_reader");
+        assert!(by_module, "{}: name modules of the reader as `crate::`", file.display());
+    }
+}
+
+#[test]
+fn the_reader_of_files_has_only_the_allowed_arrows() {
+    assert_clean("reader/src", "Allowed arrows: reader");
 }
 
 #[test]
@@ -108,8 +118,18 @@ fn machine_code_has_only_the_allowed_arrows() {
 /// The workspace's lints forbid it; only the crates that call machine code and are called from C have lints of their own.
 #[test]
 fn only_foreign_edges_are_without_the_compilers_guard() {
-    let manifests =
-        ["", "benchmarks/", "case-study/", "codegen/", "gamma/", "oracle/", "runtime/", "shipped/", "tape/"];
+    let manifests = [
+        "",
+        "benchmarks/",
+        "case-study/",
+        "codegen/",
+        "gamma/",
+        "oracle/",
+        "reader/",
+        "runtime/",
+        "shipped/",
+        "tape/",
+    ];
     for folder in manifests {
         let manifest = fs::read_to_string(format!("{folder}Cargo.toml")).expect("a manifest");
         assert!(manifest.contains("[lints]\nworkspace = true"), "{folder}Cargo.toml");
@@ -139,7 +159,7 @@ fn only_foreign_edges_are_without_the_compilers_guard() {
 
 #[test]
 fn allowed_arrows_form_no_circle() {
-    let headings = ["codegen", "runtime", "gamma", "native", "tape", "fmu"]
+    let headings = ["codegen", "reader", "runtime", "gamma", "native", "tape", "fmu"]
         .map(|name| format!("Allowed arrows: {name}"));
     for heading in &headings {
         let mut left = table(heading);
@@ -158,8 +178,9 @@ fn allowed_arrows_form_no_circle() {
 }
 
 /// Sources of all crates.
-const CRATES: [&str; 10] = [
+const CRATES: [&str; 11] = [
     "codegen/src",
+    "reader/src",
     "runtime/src",
     "gamma/src",
     "native/src",
@@ -228,7 +249,7 @@ fn must_use_stands_on_types() {
 #[test]
 fn libraries_and_programs_deny_what_panics() {
     let lints = ["unwrap_used", "expect_used", "panic", "todo", "unimplemented", "unreachable"];
-    for folder in ["codegen", "fmu", "gamma", "native", "runtime", "tape", ".", "case-study"]
+    for folder in ["codegen", "fmu", "gamma", "native", "reader", "runtime", "tape", ".", "case-study"]
         .map(|folder| Path::new(folder).join("src"))
     {
         for root in
@@ -265,7 +286,8 @@ fn a_format_of_tables_is_its_file_and_its_entry_in_the_list() {
 fn the_reader_of_paths_sees_groups_and_skips_longer_names() {
     let code = "use crate::{a::{x, y}, b};\nlet v = crate::c::d();\nmy_crate::e(); $crate::f!();";
     assert_eq!(heads(code, "crate").into_iter().collect::<Vec<_>>(), ["a", "b", "c"]);
-    let names = reexports("pub use model::Closure;\npub use stub::{A, b::C as D};");
+    let names =
+        reexports("pub use linkwear_reader::spec;\npub use model::Closure;\npub use stub::{A, b::C as D};");
     let expected = [("A", "stub"), ("Closure", "model"), ("D", "stub")];
     assert_eq!(names.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect::<Vec<_>>(), expected);
 }

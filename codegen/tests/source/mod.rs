@@ -10,11 +10,11 @@ fn rust_files(folder: &Path) -> Vec<PathBuf> {
     files.into_iter().filter(|path| path.extension().is_some_and(|end| end == "rs")).chain(inner).collect()
 }
 
-/// Files of the generator and of the command line with a line of code, outside comments and tests, that fits.
+/// Files of the generator, of its reader and of the command line with a line of code, outside comments and tests, that fits.
 pub fn files_with(fits: impl Fn(&str) -> bool) -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let files =
-        [root.join("codegen/src"), root.join("src")].into_iter().flat_map(|folder| rust_files(&folder));
+    let folders = ["codegen/src", "reader/src", "src"].map(|folder| root.join(folder));
+    let files = folders.iter().flat_map(|folder| rust_files(folder));
     let found = files.filter(|path| {
         let text = fs::read_to_string(path).expect("a source file");
         let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();

@@ -72,7 +72,7 @@ impl Failure {
 }
 
 /// What is told of a key that a table does not have.
-pub(crate) fn unknown_key(key: &str) -> String {
+pub fn unknown_key(key: &str) -> String {
     format!("the key `{key}` means nothing here")
 }
 

@@ -141,7 +141,7 @@ fn held(path: &str, current: &str) {
     let shipped = fs::read_to_string(path).unwrap_or_default();
     assert!(
         shipped == current,
-        "{path} is stale: LINKWEAR_WRITE_SCHEMA=1 cargo test -p linkwear-codegen schema"
+        "{path} is stale: LINKWEAR_WRITE_SCHEMA=1 cargo test -p linkwear-reader schema"
     );
 }
 

@@ -45,7 +45,7 @@ pub use controller::{ControllerSpec, ControllerStateSpec};
 pub use coupling::{COMPLIANCE_KEYS, COUPLING_KINDS, CouplingKind, CouplingSpec, Hand, NamedBodies};
 pub use dimension::Dimension;
 pub use drawn::Drawn;
-pub(crate) use failure::unknown_key;
+pub use failure::unknown_key;
 pub use file::{
     CellValues, CheckSpec, ClearanceSpec, Closure, Ends, File, Input, InputTable, Parameter, ParameterTable,
     RepeatSpec, WearSpec,
