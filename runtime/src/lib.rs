@@ -69,6 +69,8 @@ mod guide;
 #[cfg(feature = "std")]
 pub mod integrate;
 #[cfg(feature = "std")]
+pub mod jump;
+#[cfg(feature = "std")]
 mod layout;
 #[cfg(feature = "std")]
 mod ledger;

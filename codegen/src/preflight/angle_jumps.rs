@@ -4,6 +4,8 @@
 
 use std::f64::consts::PI;
 
+use linkwear_runtime::jump::{NEIGHBOURS, forces_jump};
+
 use crate::diagnostic::{Code, Diagnostic};
 use crate::model::Mechanism;
 
@@ -14,12 +16,6 @@ use super::turn::told;
 
 /// Halvings of a step of 5 degrees: the positions on both sides are 1e-12 rad apart, what forces differ by else.
 const HALVINGS: usize = 36;
-/// Part of the largest force of the step by which such positions cannot differ, unless it changes by a hundred thousand times itself in a
-/// radian.
-const JUMP: f64 = 1e-7;
-/// Positions on each side, and how much more a jump is than their forces differ by among themselves; as in runs.
-const NEIGHBOURS: u32 = 6;
-const ABOVE_ROUNDING: f64 = 16.0;
 
 /// Warns for every angle of a cut joint that would make a force jump.
 pub fn angle_jumps(case: &Case<'_>, course: &Course<'_>) -> Vec<Diagnostic> {
@@ -61,26 +57,11 @@ fn jump(case: &Case<'_>, course: &Course<'_>, (from, end): (&Waypoint, f64), pla
         let waypoint = course.exactly_at(from, t)?;
         Some(case.resistance(t, &waypoint.q, &course.speeds(&waypoint)?))
     };
-    let (one, other) = (forces(low)?, forces(high)?);
-    // There a force may go through zero, and be all that there is.
-    let ends = [forces(from.t), forces(end)].into_iter().flatten().flatten();
-    let sizes = one.iter().chain(&other).copied().chain(ends);
-    let largest = sizes.fold(0.0_f64, |most, force| most.max(force.abs()));
-    let across = farthest(&one, &other);
-    if across <= JUMP * largest {
-        return None;
-    }
-    let side = |place: f64, away: f64, own: &[f64]| {
-        let others = (1..NEIGHBOURS).filter_map(|step| forces(place + away * f64::from(step)));
-        others.fold(0.0, |most, other| f64::max(most, farthest(own, &other)))
+    let side = |place: f64, away: f64| -> Vec<Vec<f64>> {
+        (0..NEIGHBOURS).filter_map(|step| forces(place + away * f64::from(step))).collect()
     };
-    let rounding = f64::max(side(low, low - high, &one), side(high, high - low, &other));
-    (across > ABOVE_ROUNDING * rounding).then_some(high)
-}
-
-/// The largest difference of forces.
-fn farthest(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
+    let ends: Vec<Vec<f64>> = [forces(from.t), forces(end)].into_iter().flatten().collect();
+    forces_jump([&side(low, low - high), &side(high, high - low)], &ends).then_some(high)
 }
 
 fn warning(mechanism: &Mechanism, course: &Course<'_>, angle: &str, t: f64) -> Diagnostic {

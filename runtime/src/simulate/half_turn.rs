@@ -6,20 +6,12 @@
 use super::angles::{Angles, Crossing};
 use super::motion::ConstrainedMotion;
 use crate::error::RunError;
-use crate::linear::largest;
+use crate::jump::{NEIGHBOURS, forces_jump};
 
 /// States beside the half turn, as a part of the step: the angle of a column and the one in a force may round differently.
 const ASIDE: f64 = 1e-10;
 /// Such states are some last places of the time apart at least.
 const LAST_PLACES: f64 = 64.0 * f64::EPSILON;
-/// Part of the largest force of the step by which such states cannot differ, unless it changes a thousandfold over the step. At the half turn
-/// itself a force may go through zero, and be all that there is.
-const JUMP: f64 = 1e-7;
-/// States on each side. Where rounding is all that is left of the forces, those of one side differ among themselves as they do from the
-/// other side's.
-const NEIGHBOURS: u32 = 6;
-/// A jump is more than this times what those of one side differ by: of six that round, the farthest are a third of their range apart at least.
-const ABOVE_ROUNDING: f64 = 16.0;
 
 /// Writes the state at a time within the step.
 type Within<'a> = &'a dyn Fn(f64, &mut [f64]);
@@ -64,19 +56,10 @@ pub(super) fn check(
         (1..=NEIGHBOURS).map(|step| at(place + away * f64::from(step))).collect()
     };
     let sides = [side(before, -aside), side(after, aside)];
-    let across = farthest(&sides[0][0], &sides[1][0]);
-    let among = |side: &Vec<Vec<f64>>| side.iter().map(|other| farthest(&side[0], other)).fold(0.0, f64::max);
-    let rounding = sides.iter().map(among).fold(0.0, f64::max);
-    let size = ends.iter().chain(sides.iter().flatten()).map(|forces| largest(forces)).fold(0.0, f64::max);
-    if across > JUMP * size && across > ABOVE_ROUNDING * rounding {
+    if forces_jump([&sides[0], &sides[1]], &ends) {
         return Err(RunError::AngleJumps { t: after, angle: name.to_owned() });
     }
     Ok(())
-}
-
-/// The largest difference of forces.
-fn farthest(one: &[f64], other: &[f64]) -> f64 {
-    one.iter().zip(other).fold(0.0, |most, (a, b)| most.max((a - b).abs()))
 }
 
 /// Forces on all speeds at a state, without those of joints.
