@@ -34,6 +34,7 @@ mod plan;
 mod plot;
 mod predict;
 mod sensitivity;
+mod shard_command;
 mod shipped_schemas;
 mod simulate;
 mod starters;

@@ -51,8 +51,8 @@ pub enum JournalError {
         /// The line, from 1.
         line: u64,
     },
-    /// It is whole, but another version of the program wrote it.
-    #[error("`{}` is of another version of linkwear{}: this one does not write lines such as line {line}", .file.display(), named(.version.as_deref()))]
+    /// It is whole, but another version or command of the program wrote it.
+    #[error("`{}` is of another {}: this one does not write lines such as line {line}", .file.display(), origin(.version.as_deref()))]
     OtherVersion {
         /// The journal.
         file: PathBuf,
@@ -361,8 +361,13 @@ fn chained(before: &[u8; 32], json: &[u8]) -> [u8; 32] {
 }
 
 /// In brackets, where it is known.
-fn named(version: Option<&str>) -> String {
-    version.map(|version| format!(" ({version})")).unwrap_or_default()
+fn origin(version: Option<&str>) -> String {
+    match version {
+        // The journal of a life in the place of a study's, or the other way round.
+        Some(env!("CARGO_PKG_VERSION")) => "command or build of linkwear".to_owned(),
+        Some(version) => format!("version of linkwear ({version})"),
+        None => "version of linkwear".to_owned(),
+    }
 }
 
 /// A value for people: text without quotes, nothing as a word.
@@ -481,6 +486,13 @@ mod tests {
             assert_eq!(fs::read(&path).expect("a file"), text);
         }
         fs::remove_file(&path).expect("a file");
+        let of = |version: &str| JournalError::OtherVersion {
+            file: path.clone(),
+            line: 2,
+            version: Some(version.to_owned()),
+        };
+        let own = of(env!("CARGO_PKG_VERSION")).to_string();
+        assert!(own.contains("another command") && !own.contains("version"), "{own}");
     }
 
     #[test]

@@ -186,6 +186,8 @@ addEventListener("load", () => setTimeout(() => {
       say("curves", state.t > 0.3 * 0.5 && state.t < 0.7 * 0.5 && differ(turned, picture()) > 100);
       const orbit = $("bearings").querySelector("canvas");
       if (orbit) say("orbit", kinds(orbit.getContext("2d").getImageData(0, 0, orbit.width, orbit.height).data) > 5);
+      const columns = $("column"), chosen = option => { columns.value = option.value; columns.dispatchEvent(new Event("change")); return [...$("chosen").querySelectorAll("text")]; };
+      say("whole labels", ![...columns.options].some(option => chosen(option).some(text => text.getBBox().x < 0)));
       say("no request", performance.getEntriesByType("resource").length === 0);
       document.title = results.join("; ");
     }, 300);
@@ -223,7 +225,7 @@ fn a_page_moves_in_a_browser() {
     fs::write(&place, page + TRIAL).expect("a file");
     let (title, said) = tried(&place, &[]);
     let parts: Vec<&str> = title.split("; ").collect();
-    assert!(parts.len() >= 11 && parts.iter().all(|part| part.starts_with("ok ")), "{title}");
+    assert!(parts.len() >= 12 && parts.iter().all(|part| part.starts_with("ok ")), "{title}");
     assert_eq!(said, Vec::<String>::new());
 }
 

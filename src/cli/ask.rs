@@ -132,7 +132,7 @@ pub fn shard(
     })?;
     result.warnings.extend(warnings);
     let part = LifePart::new(&study, String::new(), result).ok_or_else(no_such_words)?;
-    part.write(folder, &study)?;
+    life::folder::write_shard(folder, &part, &study)?;
     Ok(part)
 }
 

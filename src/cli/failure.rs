@@ -132,25 +132,29 @@ impl Failure {
 
     /// The simulation failed, or was stopped by Ctrl-C; the rows computed before may be in a file.
     pub fn run(file: &Path, error: &RunError, kept: Option<PathBuf>) -> Self {
-        let help = kept.map_or_else(String::new, |path| {
-            format!("the rows computed before that are in `{}`", path.display())
-        });
+        let kept = kept.map(|path| format!("the rows computed before that are in `{}`", path.display()));
         match error {
             RunError::Interrupted { t } => {
-                Self::new("C0009", Some(file), format!("stopped on request at t = {t} s"), help)
+                let help = kept.unwrap_or_else(|| "a run begins anew".to_owned());
+                Self::stopped(file, format_args!("stopped on request at t = {t} s"), help)
             }
-            error => Self::new(RUN_FAILED, Some(file), error, help),
+            error => Self::new(RUN_FAILED, Some(file), error, kept.unwrap_or_default()),
         }
     }
 
     /// A life could not be lived to its end.
-    pub fn life(file: &Path, message: impl Display, help: impl Display, cycles: Option<Answer>) -> Self {
-        Self { cycles: cycles.map(Box::new), ..Self::new(LIFE_FAILED, Some(file), message, help) }
+    pub fn life(file: &Path, message: impl Display, help: impl Display) -> Self {
+        Self::new(LIFE_FAILED, Some(file), message, help)
     }
 
-    /// A study was stopped by Ctrl-C.
-    pub fn stopped_study(file: &Path, message: impl Display, help: impl Display) -> Self {
+    /// A life, a study or a search was stopped by Ctrl-C.
+    pub fn stopped(file: &Path, message: impl Display, help: impl Display) -> Self {
         Self::new("C0009", Some(file), message, help)
+    }
+
+    /// With the cycles that a life had lived before, which are in no file.
+    pub fn with_cycles(self, cycles: Answer) -> Self {
+        Self { cycles: Some(Box::new(cycles)), ..self }
     }
 
     /// A file is there that linkwear did not make.
@@ -203,7 +207,7 @@ impl Failure {
             }
             JournalError::OtherVersion { file, .. } => (
                 file,
-                "nothing was changed; finish the run with that version, or begin again with another --out",
+                "nothing was changed; go on with the program that wrote it, or begin again with another --out",
             ),
             JournalError::OtherRun { file, .. } => {
                 (file, "give the file and the options of that run, or another --out")
@@ -290,7 +294,6 @@ impl Failure {
 
     /// Says it, and returns the exit code.
     pub fn report(&self, format: Format) -> ExitCode {
-        // A reader of stdout who has gone away cannot be told; the exit code still says it.
         match format {
             Format::Text => {
                 let _ = self.cycles.as_ref().map(|cycles| cycles.print(format));
@@ -302,7 +305,10 @@ impl Failure {
                 if let Some(cycles) = &self.cycles {
                     answer["cycles"] = cycles.json.clone();
                 }
-                let _ = print(&answer);
+                // A reader of stdout who has gone away cannot be told; the exit code still says it.
+                if let Err(full) = print(&answer) {
+                    remark(&format_args!("{}\n\n{}", self.text, Self::from(full).text));
+                }
             }
         }
         ExitCode::from(self.exit)

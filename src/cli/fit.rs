@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::io::Write as _;
 use std::ops::Range;
+use std::path::Path;
 
 use crate::csv_table::CsvTable;
 use crate::files::write_whole;
@@ -30,14 +31,21 @@ use self::read::{Group, groups};
 use super::answer::Answer;
 use super::arguments::FitArguments;
 use super::failure::Failure;
+#[cfg(feature = "page")]
+use super::input::check_apart;
 use super::input::check_output;
 #[cfg(feature = "page")]
 use super::picture;
 
 pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
-    check_output(&arguments.file, arguments.out.as_deref(), arguments.replace)?;
+    let lambda = arguments.lambda.as_deref().filter(|_| arguments.exposure.is_some());
+    let read: Vec<&Path> = [&*arguments.file].into_iter().chain(lambda.map(Path::new)).collect();
+    check_output(&read, arguments.out.as_deref(), arguments.replace)?;
     #[cfg(feature = "page")]
-    picture::check_plot(&arguments.file, arguments.plot.as_deref(), arguments.replace)?;
+    {
+        picture::check_plot(&read, arguments.plot.as_deref(), arguments.replace)?;
+        check_apart(arguments.out.as_deref(), arguments.plot.as_deref())?;
+    }
     let Fitted { answer, file } = fitted(arguments, &CsvTable::read(&arguments.file)?, None)?;
     if let Some(out) = &arguments.out {
         write_whole(out, |out| out.write_all(file.as_bytes()))?;

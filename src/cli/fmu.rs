@@ -15,7 +15,7 @@ use super::table::duration;
 
 pub fn run(arguments: &FmuArguments) -> Result<Answer, Failure> {
     let out = &arguments.out;
-    check_output(&arguments.input.file, Some(out), arguments.replace)?;
+    check_output(&[&arguments.input.file], Some(out), arguments.replace)?;
     let start = Instant::now();
     let (compiled, warnings) = load(&arguments.input)?;
     let bytes = fmu::unit(&compiled).map_err(|error| Failure::usage(error, "see docs/fmi.md"))?;

@@ -38,7 +38,7 @@ pub fn run(arguments: &GenerateArguments) -> Result<Answer, Failure> {
     }
     let replace = replace(arguments);
     for (path, _) in &files {
-        check_output(&arguments.input.file, path.as_deref().filter(|_| !arguments.check), replace)?;
+        check_output(&[&arguments.input.file], path.as_deref().filter(|_| !arguments.check), replace)?;
     }
     let seconds = start.elapsed().as_secs_f64();
     for (path, text) in &files {

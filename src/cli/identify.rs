@@ -26,7 +26,7 @@ use crate::study::{Cases, Points};
 pub fn run(arguments: &IdentifyArguments) -> Result<Answer, Failure> {
     let file = &arguments.input.file;
     #[cfg(feature = "page")]
-    picture::check_plot(file, arguments.plot.as_deref(), arguments.replace)?;
+    picture::check_plot(&[file], arguments.plot.as_deref(), arguments.replace)?;
     let method = method(arguments.integrator, (arguments.step, arguments.tol))?;
     let free = free(arguments)?;
     let points = Points::sobol(arguments.free.clone(), 1, arguments.seed.into());
@@ -158,6 +158,6 @@ fn failed(arguments: &IdentifyArguments, error: IdentifyError) -> Failure {
             let help = if first.help.is_empty() { "look at the bounds" } else { &first.help };
             Failure::empty_study(Some(file), &error, help)
         }
-        IdentifyError::Interrupted(_) => Failure::stopped_study(file, &error, "a search begins anew"),
+        IdentifyError::Interrupted(_) => Failure::stopped(file, &error, "a search begins anew"),
     }
 }

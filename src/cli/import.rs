@@ -16,7 +16,7 @@ use crate::import::{Base, Files, ImportError, LengthUnit, from_robot, from_stl};
 
 pub fn run(arguments: &ImportArguments) -> Result<Answer, Failure> {
     let (file, out) = (&arguments.file, &arguments.out);
-    check_output(file, Some(out), arguments.replace)?;
+    check_output(&[file], Some(out), arguments.replace)?;
     let is_part = file.extension().is_some_and(|end| end.eq_ignore_ascii_case("stl"));
     if is_part { part(arguments) } else { robot(arguments) }
 }

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::files::{WriteError, check_target};
+use crate::files::{WriteError, check_target, folder_of};
 use crate::mechanism::{Mechanism, located_warnings, read_source};
 use crate::remark::remark;
 use crate::table::is_stdout;
@@ -71,9 +71,9 @@ fn print_warnings(warnings: &Diagnostics) {
     }
 }
 
-/// Refuses, before the work, what cannot be written, to write over the input, and to replace what linkwear did not make unless that
-/// is wanted. True if the output is a stream.
-pub fn check_output(input: &Path, output: Option<&Path>, replace: Replace) -> Result<bool, Failure> {
+/// Refuses, before the work, what cannot be written, to write over what is read, and to replace what linkwear did not make unless
+/// that is wanted. True if the output is a stream.
+pub fn check_output(read: &[&Path], output: Option<&Path>, replace: Replace) -> Result<bool, Failure> {
     let Some(output) = output else { return Ok(false) };
     if is_stdout(output) {
         return Ok(true);
@@ -82,10 +82,30 @@ pub fn check_output(input: &Path, output: Option<&Path>, replace: Replace) -> Re
         let help = "give a name that ends in .csv, or build it with the feature `parquet`";
         return Err(Failure::usage("--out: this program was built without Parquet", help));
     }
-    match (input.canonicalize(), output.canonicalize()) {
-        (Ok(a), Ok(b)) if a == b => Err(WriteError::Exists(output.to_path_buf()).into()),
-        _ => check_replaced(output, replace),
+    if read.iter().any(|input| is_same(input, output)) {
+        return Err(WriteError::Exists(output.to_path_buf()).into());
     }
+    check_replaced(output, replace)
+}
+
+/// Refuses, before the work, to write two things to one file.
+pub fn check_apart(out: Option<&Path>, plot: Option<&Path>) -> Result<(), Failure> {
+    let (Some(out), Some(plot)) = (out, plot) else { return Ok(()) };
+    if is_stdout(out) || check_target(out)? || !is_same(out, plot) {
+        return Ok(());
+    }
+    let message = format!("--out and --plot are both `{}`", plot.display());
+    Err(Failure::usage(message, "give each a name of its own"))
+}
+
+/// Whether two paths are of one file, which need not be there yet.
+fn is_same(a: &Path, b: &Path) -> bool {
+    let place = |path: &Path| {
+        path.canonicalize().or_else(|_| {
+            folder_of(path).canonicalize().map(|folder| folder.join(path.file_name().unwrap_or_default()))
+        })
+    };
+    matches!((place(a), place(b)), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Refuses what cannot be written, and to replace what linkwear did not make. True for a stream.

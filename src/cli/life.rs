@@ -30,10 +30,11 @@ use super::input::load_mechanism;
 use super::options::LivesArguments;
 #[cfg(feature = "page")]
 use super::picture;
+use super::shard_command::shard_command;
 
 pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     #[cfg(feature = "page")]
-    picture::check_plot(&arguments.input.file, arguments.plot.as_deref(), arguments.replace)?;
+    picture::check_plot(&[&arguments.input.file], arguments.plot.as_deref(), arguments.replace)?;
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let folder = arguments.out.as_deref();
     let open = if arguments.resume { LifeJournal::resume } else { LifeJournal::create };
@@ -70,8 +71,8 @@ pub fn run(arguments: &LifeArguments) -> Result<Answer, Failure> {
     picture::write_plot(arguments.plot.as_deref(), || life_picture(&answer.json))?;
     match (folder, study.shard) {
         (Some(folder), Some(shard)) => {
-            let part = LifePart::new(&study, command(std::env::args()), life);
-            part.map_or(Ok(()), |part| part.write(folder, &study))?;
+            let part = LifePart::new(&study, shard_command(std::env::args_os()), life);
+            part.map_or(Ok(()), |part| folder::write_shard(folder, &part, &study))?;
             Ok(output::of_shard(answer, shard))
         }
         (Some(folder), None) => {
@@ -136,43 +137,6 @@ pub fn merged(arguments: &MergeArguments) -> Result<Answer, Failure> {
     let answer = output::answer(&facts, &life);
     folder::write(&arguments.out, &facts, &life, &answer.json)?;
     Ok(answer)
-}
-
-/// The command that was given, with `{shard}` and `{out}` in the place of what differs from shard to shard.
-pub fn command(arguments: impl Iterator<Item = String>) -> String {
-    let mut words = vec!["linkwear".to_owned()];
-    let mut arguments = arguments.skip(1);
-    while let Some(argument) = arguments.next() {
-        let (name, value) = match argument.split_once('=') {
-            Some((name, value)) if name.starts_with("--") => (name.to_owned(), Some(value.to_owned())),
-            _ => (argument.clone(), None),
-        };
-        let place = match &*name {
-            "--shard" => "{shard}",
-            "--out" => "{out}",
-            "--resume" => continue,
-            "--format" => {
-                drop(value.or_else(|| arguments.next()));
-                continue;
-            }
-            _ => {
-                words.push(quoted(&argument));
-                continue;
-            }
-        };
-        drop(value.or_else(|| arguments.next()));
-        words.extend([name, place.to_owned()]);
-    }
-    words.join(" ")
-}
-
-/// A word as a shell takes it for one.
-fn quoted(word: &str) -> String {
-    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./=,:+%@".contains(c);
-    if !word.is_empty() && word.chars().all(is_plain) {
-        return word.to_owned();
-    }
-    format!("'{}'", word.replace('\'', "'\\''"))
 }
 
 /// Where what was finished before an error is kept, and what it is of.
@@ -264,13 +228,19 @@ pub fn failed(file: &Path, error: LifeError, kept: Option<&Kept<'_>>) -> Failure
         );
         help = if help.is_empty() { cure } else { format!("{cure}; {help}") };
     }
-    if matches!(cause, Cause::Interrupted { .. }) {
+    let failure = if matches!(cause, Cause::Interrupted { .. }) {
         help.push_str(if help.is_empty() { "" } else { "; " });
         help.push_str(match kept {
             Some(_) => "the same command with --resume goes on from there",
-            None => "with --out DIR it could go on by --resume",
+            None => "`linkwear life --out DIR` could go on by --resume",
         });
+        Failure::stopped(file, &cause, help)
+    } else {
+        Failure::life(file, &cause, help)
+    };
+    if kept.is_some() || cycles.is_empty() {
+        failure
+    } else {
+        failure.with_cycles(output::cycles(&joints, &cycles))
     }
-    let is_kept = kept.is_some() || cycles.is_empty();
-    Failure::life(file, &cause, help, (!is_kept).then(|| output::cycles(&joints, &cycles)))
 }

@@ -1,6 +1,6 @@
 //! Options that several subcommands have, each said once. Never knows who asks.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::backend::Backend;
 use crate::life::Coupling;
@@ -98,6 +98,13 @@ pub struct MotionArguments {
     /// integral, 1e-4 or finer [default: 1e-6].
     #[arg(long, value_name = "E", value_parser = accuracy, allow_negative_numbers = true)]
     pub tol: Option<f64>,
+}
+
+impl MotionArguments {
+    /// The file of the mechanism, and what is read beside it.
+    pub fn read_beside<'a>(&'a self, file: &'a Path) -> Vec<&'a Path> {
+        [file].into_iter().chain(self.inputs.as_deref()).collect()
+    }
 }
 
 /// How lives are lived.

@@ -4,7 +4,7 @@
 mod lived;
 
 use std::io::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use linkwear_codegen::{Compiled, Options, SourceFile, compile};
@@ -23,7 +23,7 @@ use super::picture::{self, may_write};
 use super::simulate::{self, Simulation};
 use super::table::duration;
 use crate::files::write_whole;
-use crate::life::{Cause, LifeFacts, LifeStudy};
+use crate::life::{Cause, JOURNAL, LifeFacts, LifeStudy};
 use crate::mechanism::{Mechanism, read_source};
 use crate::page::document::Page;
 use crate::page::drawing;
@@ -55,7 +55,9 @@ pub struct Ear<'a> {
 
 pub fn report(arguments: &ReportArguments) -> Result<Answer, Failure> {
     let ReportArguments { input, out, replace, .. } = arguments;
-    to_file(&input.file, (out, *replace), |ear| {
+    let told = [life::folder::LIFE, life::folder::LIVES, JOURNAL].map(|name| input.file.join(name));
+    let read: Vec<&Path> = [&input.file].into_iter().chain(&told).map(PathBuf::as_path).collect();
+    to_file(&read, (out, *replace), |ear| {
         if input.file.is_dir() {
             return Ok((lived_page(arguments, ear)?.into_bytes(), ""));
         }
@@ -126,7 +128,7 @@ fn page(seen: &Seen, life: Option<&Value>, with_parameters: bool) -> String {
 
 pub fn view(arguments: &ViewArguments) -> Result<Answer, Failure> {
     let ViewArguments { input, out, replace, .. } = arguments;
-    to_file(&input.file, (out, *replace), |ear| {
+    to_file(&arguments.motion.read_beside(&input.file), (out, *replace), |ear| {
         Ok((view_page(arguments, &read_source(&input.file)?, ear)?.into_bytes(), ""))
     })
 }
@@ -141,7 +143,7 @@ pub fn view_page(arguments: &ViewArguments, source: &SourceFile, ear: Ear<'_>) -
 pub fn draw(arguments: &DrawArguments) -> Result<Answer, Failure> {
     let DrawArguments { input, out, replace, .. } = arguments;
     picture::check_ending(out)?;
-    to_file(&input.file, (out, *replace), |ear| {
+    to_file(&[&input.file], (out, *replace), |ear| {
         let svg = drawn(arguments, &read_source(&input.file)?, ear)?;
         Ok((picture::drawn(out, svg)?, ""))
     })
@@ -186,11 +188,11 @@ fn see(
 
 /// Writes what is made of a file, with a note for its reader.
 fn to_file(
-    input: &Path,
+    read: &[&Path],
     (out, replace): (&Path, Replace),
     make: impl FnOnce(Ear<'_>) -> Result<(Vec<u8>, &'static str), Failure>,
 ) -> Result<Answer, Failure> {
-    may_write(input, out, replace)?;
+    may_write(read, out, replace)?;
     let begin = Instant::now();
     let (bytes, note) = watched("run", |watch| make(Ear { watch, remarks: true }))?;
     write_whole(out, |file| file.write_all(&bytes))?;

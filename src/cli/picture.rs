@@ -9,12 +9,12 @@ use super::options::Replace;
 use crate::files::write_whole;
 
 /// Refuses, before the work, to replace what linkwear did not make.
-pub fn may_write(input: &Path, out: &Path, replace: Replace) -> Result<(), Failure> {
+pub fn may_write(read: &[&Path], out: &Path, replace: Replace) -> Result<(), Failure> {
     if cfg!(not(feature = "png")) && is_png(out) {
         let help = "give a name that ends in .svg, or build it with the feature `png`: cargo build --release --features png";
         return Err(Failure::usage("this program was built without PNG", help));
     }
-    check_output(input, Some(out), replace).map(drop)
+    check_output(read, Some(out), replace).map(drop)
 }
 
 /// Refuses the name of a picture that ends like one of another format; without an ending it is an SVG.
@@ -48,10 +48,10 @@ pub fn drawn(file: &Path, svg: String) -> Result<Vec<u8>, Failure> {
 }
 
 /// Refuses, before the work, a place where no charts may be written.
-pub fn check_plot(input: &Path, plot: Option<&Path>, replace: Replace) -> Result<(), Failure> {
+pub fn check_plot(read: &[&Path], plot: Option<&Path>, replace: Replace) -> Result<(), Failure> {
     plot.map_or(Ok(()), |plot| {
         check_ending(plot)?;
-        may_write(input, plot, replace)
+        may_write(read, plot, replace)
     })
 }
 

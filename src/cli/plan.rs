@@ -59,7 +59,7 @@ impl Source {
 
 pub fn run(arguments: &PlanArguments) -> Result<Answer, Failure> {
     #[cfg(feature = "page")]
-    picture::check_plot(&arguments.file, arguments.plot.as_deref(), arguments.replace)?;
+    picture::check_plot(&[&arguments.file], arguments.plot.as_deref(), arguments.replace)?;
     answer(arguments, source(arguments)?)
 }
 

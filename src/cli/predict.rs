@@ -29,7 +29,7 @@ use text::to_text;
 
 pub fn run(arguments: &PredictArguments) -> Result<Answer, Failure> {
     #[cfg(feature = "page")]
-    picture::check_plot(&arguments.fit, arguments.plot.as_deref(), arguments.replace)?;
+    picture::check_plot(&[&arguments.fit], arguments.plot.as_deref(), arguments.replace)?;
     answer(arguments, &read_fit(&arguments.fit)?)
 }
 

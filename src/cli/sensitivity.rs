@@ -48,14 +48,14 @@ pub fn run(arguments: &SensitivityArguments) -> Result<Answer, Failure> {
 /// Why there are no derivatives, and what to do about it.
 fn failed(arguments: &SensitivityArguments, error: SensitivityError) -> Failure {
     let file = &arguments.input.file;
-    let life = |help: &str| Failure::life(file, &error, help, None);
+    let life = |help: &str| Failure::life(file, &error, help);
     match &error {
         SensitivityError::Mechanism(diagnostics) => Failure::from(diagnostics.clone()),
         SensitivityError::UnknownParameter { parameter, known } => {
             Failure::unknown_name("parameter", parameter, known, known)
         }
         SensitivityError::Setting { .. } => Failure::usage(&error, "choose another value"),
-        SensitivityError::Interrupted => Failure::stopped_study(file, &error, "it begins anew"),
+        SensitivityError::Interrupted => Failure::stopped(file, &error, "it begins anew"),
         SensitivityError::Run(error) => Failure::run(file, error, None),
         SensitivityError::Formula { .. } => life("name the parameters in its formula"),
         SensitivityError::At { .. }

@@ -25,6 +25,8 @@ use super::answer::Answer;
 use super::answer::simulate::{PeakAnswer, SimulateAnswer, TurnAnswer};
 use super::arguments::SimulateArguments;
 use super::failure::{Failure, warnings};
+#[cfg(feature = "page")]
+use super::input::check_apart;
 use super::input::{check_output, check_replaced, load_mechanism};
 use super::options::{IntegratorName, MotionArguments};
 #[cfg(feature = "page")]
@@ -44,12 +46,16 @@ const DEFAULT_RHO: f64 = 0.8;
 pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     integrator(&arguments.motion)?;
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
-    let is_stream = check_output(file, out, arguments.replace)?;
+    let read = arguments.motion.read_beside(file);
+    let is_stream = check_output(&read, out, arguments.replace)?;
     // What is computed before a run stops goes there: a file that it was meant for is left as it was.
     let kept = out.map(|out| if is_stream { out.to_path_buf() } else { partial_name(out) });
     kept.as_deref().map_or(Ok(true), |kept| check_replaced(kept, arguments.replace))?;
     #[cfg(feature = "page")]
-    picture::check_plot(file, arguments.plot.as_deref(), arguments.replace)?;
+    {
+        picture::check_plot(&read, arguments.plot.as_deref(), arguments.replace)?;
+        check_apart(out, arguments.plot.as_deref())?;
+    }
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let asked = Simulation::new(file, &arguments.motion, &mechanism)?;
     let start = Instant::now();

@@ -20,18 +20,19 @@ pub use self::arguments::StudyArguments;
 use super::answer::Answer;
 use super::arguments::MergeArguments;
 use super::failure::Failure;
-use super::input::{check_output, check_replaced, options, print_remarks};
+use super::input::{check_output, options, print_remarks};
 use super::life;
+use super::shard_command::shard_command;
 use super::simulate::{Simulation, integrator};
 
 pub fn run(arguments: &StudyArguments) -> Result<Answer, Failure> {
     let (file, out) = (&arguments.input.file, arguments.out.as_deref());
-    let is_stream = check_output(file, out, arguments.replace)?;
+    let is_stream = check_output(&arguments.motion.read_beside(file), out, arguments.replace)?;
     if is_stream && (arguments.resume || arguments.shard.is_some()) {
         let help = "give a file, so that what is finished has a place";
         return Err(Failure::usage("--out is a stream: nothing could go on or be merged from there", help));
     }
-    let command = life::command(std::env::args());
+    let command = shard_command(std::env::args_os());
     let result = kept(arguments, &read_source(file)?, (command, !is_stream), |study, journal| {
         print_remarks(study.cases.base());
         watched("study", |watch| match journal {
@@ -69,7 +70,8 @@ pub fn kept(
 
 /// The points of all shards as one study.
 pub fn merged(arguments: &MergeArguments) -> Result<Answer, Failure> {
-    check_replaced(&arguments.out, arguments.replace)?;
+    let shards: Vec<&Path> = arguments.shards.iter().map(PathBuf::as_path).collect();
+    check_output(&shards, Some(&arguments.out), arguments.replace)?;
     let result = merge(&arguments.shards).map_err(Failure::merge)?;
     finished(&result, (None, Some(&arguments.out)))
 }
@@ -169,7 +171,7 @@ pub fn failed(arguments: &StudyArguments, error: StudyError) -> Failure {
             );
             Failure::usage(&error, help)
         }
-        StudyError::Interrupted { .. } => Failure::stopped_study(&arguments.input.file, error, help),
+        StudyError::Interrupted { .. } => Failure::stopped(&arguments.input.file, error, help),
     }
 }
 

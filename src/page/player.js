@@ -123,7 +123,10 @@ const choose = () => {
   const column = +select.value, [name, unit] = run.columns[column], list = times.map((_, row) => cell(row, column));
   let [low, high] = [Math.min(...list), Math.max(...list)];
   if (!(high > low)) [low, high] = [low - 1, high + 1];
-  const [W, H, L, R, T, B] = [480, 220, 58, 16, 34, 30], x = t => L + (W - L - R) * (t - first) / length, y = v => H - B - (H - T - B) * (v - low) / (high - low);
+  const labelled = [low, (low + high) / 2, high].map(v => [v, digits(v)]);
+  // A label that is cut loses its sign: as wide as the longest, 7.4 a character.
+  const L = Math.max(58, 8 + 7.4 * Math.max(...labelled.map(([, text]) => text.length)));
+  const [W, H, R, T, B] = [480, 220, 16, 34, 30], x = t => L + (W - L - R) * (t - first) / length, y = v => H - B - (H - T - B) * (v - low) / (high - low);
   const svg = document.createElementNS(SVG, "svg");
   const add = (tag, attributes, text) => {
     const made = document.createElementNS(SVG, tag);
@@ -137,9 +140,9 @@ const choose = () => {
   svg.setAttribute("role", "img");
   svg.setAttribute("aria-label", name);
   svg.dataset.x = [first, last_time, L, W - L - R].join();
-  for (const v of [low, (low + high) / 2, high]) {
+  for (const [v, text] of labelled) {
     add("path", { class: "grid", d: `M${L} ${y(v)}H${W - R}` });
-    add("text", { x: L - 6, y: y(v) + 4, "text-anchor": "end" }, digits(v));
+    add("text", { x: L - 6, y: y(v) + 4, "text-anchor": "end" }, text);
   }
   for (const t of [first, (first + last_time) / 2, last_time]) add("text", { x: x(t), y: H - 10, "text-anchor": "middle" }, digits(t) + " s");
   const title = add("text", { class: "title", x: L, y: 18 }, `${name} [${unit}]`), now = document.createElementNS(SVG, "tspan");

@@ -105,6 +105,7 @@ fn signals_keep_what_is_finished_and_say_how_to_go_on() {
         let error = answer.errors()[0].clone();
         let text = |key: &str| error[key].as_str().expect("a text").to_owned();
         assert!(answer.code == 1 && text("message").contains("stopped on request"), "{signal}: {error}");
+        assert_eq!(text("code"), "C0009", "{signal}: as every other command that is stopped");
         assert!(text("help").contains("--resume"), "{signal}: {error}");
         let path = folder.path(signal);
         let again = linkwear(&[&arguments(&RANDOM, &path)[..], &["--resume"]].concat());

@@ -133,3 +133,15 @@ fn a_shard_needs_random_lives_a_folder_and_a_number() {
         "{error}"
     );
 }
+
+#[test]
+fn what_a_stopped_shard_had_told_of_its_lives_goes_when_it_is_finished() {
+    let folder = Folder::new("stopped-shard");
+    let out = shard(&folder, "first", "1/2", &[]);
+    // As Ctrl-C leaves them: the cycles, and the lives that were finished by then.
+    let tables = &RESULTS[1..];
+    tables.iter().for_each(|name| drop(folder.write(&format!("first/{name}"), "1")));
+    let again = linkwear(&[&LIFE[..], &["--shard", "1/2", "--out", &out, "--resume"]].concat());
+    assert_eq!(again.code, 0, "{}", again.err);
+    assert!(tables.iter().all(|name| !fs::exists(format!("{out}/{name}")).expect("a folder")));
+}

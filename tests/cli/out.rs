@@ -315,3 +315,83 @@ fn a_signal_while_a_large_file_is_written_leaves_nothing_half_written() {
     assert_eq!(folder.names(), ["rows.csv", "rows.csv-metadata.json"]);
     assert!(folder.read("rows.csv").lines().count() == 400_001);
 }
+
+#[test]
+fn a_measured_curve_has_the_columns_of_a_run_and_is_replaced_by_force_alone() {
+    let folder = Folder::new("measured");
+    for name in ["curve.csv", "curve.npy"] {
+        let curve = folder.write(name, "t [s],R1.drive [N m]\n0,1.5\n");
+        let refused = linkwear(&with(WRITERS[0], &curve));
+        assert!(refused.code == 1 && refused.err.contains("C0004"), "{name}: {}", refused.err);
+        assert_eq!(folder.read(name), "t [s],R1.drive [N m]\n0,1.5\n");
+    }
+}
+
+#[test]
+fn no_file_is_written_that_is_read_or_twice() {
+    let folder = Folder::new("apart");
+    let part = |shard: &str, name: &str| {
+        let out = folder.path(name);
+        let study = ["study", "mechanisms/rssr_rigid.toml", "--vary", "speed=1 Hz,2 Hz", "--of", "steps"];
+        assert_eq!(linkwear(&[&study[..], &["--shard", shard, "--out", &out]].concat()).code, 0);
+        out
+    };
+    let (first, second) = (part("1/2", "first"), part("2/2", "second"));
+    let life = folder.path("life");
+    let lived =
+        ["life", "mechanisms/rssr.toml", "--rigid", "--step", "1e-4", "--settle", "0", "--trajectories", "5"];
+    assert_eq!(linkwear(&[&lived[..], &["--out", &life]].concat()).code, 0);
+    let told = folder.path("life/life.json");
+    let fit = with(WRITERS[2], &told);
+    for (command, kept) in [
+        (vec!["merge", &first, &second, "--out", &first], &first),
+        (vec!["report", &life, "-o", &told], &told),
+        ([&fit[..], &["--lambda", &told]].concat(), &told),
+    ] {
+        let before = fs::read(kept).expect("a file");
+        let refused = linkwear(&[&command[..], &["--force"]].concat());
+        assert!(
+            refused.code == 1 && refused.err.contains("C0004"),
+            "{command:?}: {}{}",
+            refused.out,
+            refused.err
+        );
+        assert!(fs::read(kept).expect("a file") == before, "{command:?}");
+    }
+    // Under two names, and before there is a file.
+    let (curve, same) = (folder.path("curve.svg"), folder.path("life/../curve.svg"));
+    for writer in [WRITERS[0], WRITERS[2]] {
+        let refused = linkwear(&[&with(writer, &curve)[..], &["--plot", &same]].concat());
+        assert!(refused.code == 2 && refused.err.contains("--plot"), "{}{}", refused.out, refused.err);
+        assert!(!fs::exists(&curve).expect("a folder"));
+    }
+}
+
+#[test]
+fn names_that_are_not_utf_8_are_names_of_files() {
+    let folder = Folder::new("bytes");
+    let study = "--vary 'length=1 m,2 m' --of steps --shard 1/1";
+    let answer = shell(&format!(
+        "f=$(printf '{}/m\\377.toml') && cp {PENDULUM} \"$f\" && \"$0\" study \"$f\" {study} --out \"$f.part\"",
+        folder.path("")
+    ));
+    assert_eq!(answer.status.code(), Some(0), "{}", String::from_utf8_lossy(&answer.stderr));
+}
+
+#[test]
+fn an_error_that_stdout_has_no_room_for_is_said_on_stderr() {
+    let answer = shell("\"$0\" check no_such.toml --format json >/dev/full");
+    let said = String::from_utf8(answer.stderr).expect("UTF-8");
+    assert_eq!(answer.status.code(), Some(1));
+    assert!(said.contains("C0002") && said.contains("C0003"), "{said}");
+}
+
+#[test]
+fn pages_that_were_written_before_a_failure_are_not_denied() {
+    let folder = Folder::new("some-pages");
+    fs::create_dir_all(folder.path("man/linkwear-fit.1")).expect("a folder in the way");
+    let refused = linkwear(&["man", "--out", &folder.path("man")]);
+    assert!(refused.code == 1 && refused.err.contains("C0003"), "{}", refused.err);
+    assert!(fs::exists(folder.path("man/linkwear.1")).expect("a folder"));
+    assert!(!refused.err.contains("nothing was changed"), "{}", refused.err);
+}

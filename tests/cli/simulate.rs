@@ -227,7 +227,7 @@ fn a_failed_run_leaves_no_file() {
 #[test]
 fn an_interrupt_keeps_what_was_computed() {
     let folder = Folder::new("interrupt");
-    let out = folder.write("rows.csv", "t [s]\ncomplete rows of an earlier run");
+    let out = folder.write("rows.csv", "<!-- linkwear 0.0.0 -->\ncomplete rows of an earlier run");
     // Long enough that it cannot end before the signal comes.
     let child = crate::command::start(&[
         "simulate",
@@ -245,7 +245,7 @@ fn an_interrupt_keeps_what_was_computed() {
     let answer = crate::command::Answer::of(child.wait_with_output().expect("an end"));
     assert_eq!(answer.code, 1);
     assert!(answer.err.contains("C0009"), "{}", answer.err);
-    assert_eq!(folder.read("rows.csv"), "t [s]\ncomplete rows of an earlier run");
+    assert_eq!(folder.read("rows.csv"), "<!-- linkwear 0.0.0 -->\ncomplete rows of an earlier run");
     let (header, rows) = table(&folder.read("rows.partial.csv"));
     assert!(!rows.is_empty() && rows.iter().all(|row| row.len() == header.len()));
     assert_eq!(folder.names(), ["rows.csv", "rows.partial.csv", "rows.partial.csv-metadata.json"]);

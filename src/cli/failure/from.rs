@@ -25,9 +25,11 @@ impl From<WriteError> for Failure {
             WriteError::System { file, .. } if file == Path::new(STDOUT) => {
                 ("C0003", file, "make room where it goes, or send it elsewhere")
             }
-            WriteError::System { file, .. } => {
-                ("C0003", file, "nothing was changed; give a file in a folder that exists and can be written")
-            }
+            WriteError::System { file, .. } => (
+                "C0003",
+                file,
+                "nothing was written there; give a file in a folder that exists and can be written",
+            ),
             WriteError::Exists(file) => ("C0004", file, "choose another name"),
         };
         Self::new(code, Some(file), &error, help)

@@ -1,21 +1,23 @@
 //! The folder of `life --out`: `life.json`, `cycles.csv`, `lives.csv`, each whole or absent, the tables with what they are of; the
 //! mechanism, so that the folder says all that it is of.
 
-use std::fs::create_dir_all;
-use std::io::Write as _;
+use std::fs::{create_dir_all, remove_file};
+use std::io::{ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
 use crate::files::{WriteError, folder_of, write_whole};
-use crate::life::{LifeFacts, LifeResult};
+use crate::life::{LifeFacts, LifePart, LifeResult, LifeStudy};
 use crate::mechanism::is_below;
 use crate::provenance::Provenance;
-use crate::table::write_table;
+use crate::table::{beside, write_table};
 use linkwear_runtime::life::{CycleJoint, CycleRecord, FailureEvent};
 use linkwear_runtime::{Cells, Table};
 use serde_json::Value;
 
 /// What is told.
 pub const LIFE: &str = "life.json";
+/// The mean path.
+const CYCLES: &str = "cycles.csv";
 /// The random lives.
 pub const LIVES: &str = "lives.csv";
 /// The column of their lengths, as it is titled.
@@ -26,6 +28,9 @@ pub const SOURCES: &str = "mechanism";
 /// Everything.
 pub fn write(folder: &Path, facts: &LifeFacts, life: &LifeResult, answer: &Value) -> Result<(), WriteError> {
     let lives: Vec<_> = (0..).zip(life.lives.iter().copied()).collect();
+    if lives.is_empty() {
+        remove(folder, &[LIVES])?;
+    }
     write_parts(folder, &life.names(), (&life.cycles, &lives), &facts.provenance)?;
     for (name, text) in facts.sources.iter().filter(|(name, _)| is_below(Path::new(name))) {
         let path = folder.join(SOURCES).join(name);
@@ -36,6 +41,27 @@ pub fn write(folder: &Path, facts: &LifeFacts, life: &LifeResult, answer: &Value
     write_whole(&folder.join(LIFE), |file| writeln!(file, "{answer:#}"))
 }
 
+/// A shard, which is told when all are together: what a run that stopped had left of its tables goes.
+pub fn write_shard(folder: &Path, part: &LifePart, study: &LifeStudy<'_>) -> Result<(), WriteError> {
+    remove(folder, &[CYCLES, LIVES])?;
+    part.write(folder, study)
+}
+
+/// Tables that were told of fewer lives, where the finished run has none.
+fn remove(folder: &Path, tables: &[&str]) -> Result<(), WriteError> {
+    for table in tables.iter().map(|name| folder.join(name)) {
+        for file in [beside(&table), table] {
+            match remove_file(&file) {
+                Err(error) if error.kind() != ErrorKind::NotFound => {
+                    return Err(WriteError::of(&file)(error));
+                }
+                _ => {}
+            }
+        }
+    }
+    Ok(())
+}
+
 /// The cycles of the mean path, and the random lives by their numbers. Returns the file of the cycles.
 pub fn write_parts(
     folder: &Path,
@@ -43,7 +69,7 @@ pub fn write_parts(
     (cycles, lives): (&[CycleRecord], &[(u64, FailureEvent)]),
     provenance: &Provenance,
 ) -> Result<PathBuf, WriteError> {
-    let path = folder.join("cycles.csv");
+    let path = folder.join(CYCLES);
     write_table(&path, &cycles_table(names, cycles), Some(provenance))?;
     if !lives.is_empty() {
         let table = Table { exponents: false, ..Table::new(lives.len()) }
