@@ -90,8 +90,8 @@ impl Run {
     }
 }
 
-/// Writes a line of titles and one line per row. Numbers are the shortest that read back to the same bits; what is not a number is
-/// an empty cell.
+/// Writes a line of titles and one line per row. Numbers are the shortest that read back to the same bits, but that zero
+/// has no sign; what is not a number is an empty cell.
 ///
 /// # Errors
 /// What the writer reports.

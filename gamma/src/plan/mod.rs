@@ -33,6 +33,8 @@ mod hidden_tests;
 #[cfg(test)]
 mod looks_tests;
 #[cfg(test)]
+mod spares_tests;
+#[cfg(test)]
 mod tests;
 #[cfg(test)]
 mod worth_tests;

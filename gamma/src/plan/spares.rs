@@ -17,9 +17,14 @@ const STEPS: f64 = 20.0;
 const STEPS_BETWEEN: (f64, f64) = (1000.0, 8000.0);
 /// Standard deviations of a normal law between its quartiles.
 const QUARTILES: f64 = 1.349;
-/// Smallest standard deviation that is resolved, as a part of the median: what is narrower, or parts that are replaced at an
-/// age, come half a step of this too early or late, a thousandth of themselves.
+/// Smallest standard deviation that is resolved, as a part of the median. Of a narrower law the mean is kept.
 const NARROWEST: f64 = 0.04;
+/// Part of the lives that end within a step from which on its middle is not where they end: a normal law that is resolved has 0.02.
+const MUCH: f64 = 0.03;
+/// Halvings of such a step at most: its lives end within a thousandth of it.
+const HALVINGS: u32 = 10;
+/// Part of a step by which a replacement may come after the end and counts: the end may be a whole number of ages, but for rounding.
+const AT_THE_END: f64 = 1e-6;
 /// Probability of more replacements that is left out, of one part and of the fleet.
 const LEFT_OUT: f64 = 1e-12;
 /// Replacements of one part that are still counted.
@@ -101,54 +106,78 @@ fn replacements(
 ) -> Result<Option<Vec<f64>>, LifeError> {
     let spread = (life.quantile(0.75)? - life.quantile(0.25)?) / QUARTILES;
     let median = life.quantile(0.5)?;
-    if time > MOST as f64 * (median + standstill.preventive.min(standstill.failure)) {
+    // A life of half of the parts and what comes behind it.
+    let planned = life.age.is_some_and(|age| life.life.reliability(age) >= 0.5);
+    if time > MOST as f64 * (median + if planned { standstill.preventive } else { standstill.failure }) {
         return Ok(None);
     }
     let spread = spread.max(NARROWEST * median);
-    let steps = (STEPS * time / spread).clamp(STEPS_BETWEEN.0, STEPS_BETWEEN.1) as usize;
-    let step = time / steps as f64;
-    // Parts that fail within each step, and those that are replaced at their age.
-    let until = |i: usize| life.life.failed((step * i as f64).min(life.age.unwrap_or(f64::INFINITY)));
-    let failed: Vec<f64> = (0..=steps).map(until).collect();
-    let ended: Vec<f64> = (0..=steps).map(|i| life.failed(step * i as f64)).collect();
-    let within = |all: &[f64]| all.windows(2).map(|pair| pair[1] - pair[0]).collect::<Vec<f64>>();
-    let failing = within(&failed);
-    let planned: Vec<f64> = within(&ended).iter().zip(&failing).map(|(all, failing)| all - failing).collect();
-    // Probability that the k-th replacement comes until each point of time.
-    let mut before = vec![1.0; steps + 1];
-    let mut counts = Vec::new();
-    for k in 0.. {
-        // A life that ends within a step leaves what is left from its middle and the standstill on. The first replacement counts when it
-        // begins.
-        let rest = |standstill: f64| left_after(&before, if k == 0 { 0.0 } else { standstill / step });
-        let [after_failure, after_plan] = [standstill.failure, standstill.preventive].map(rest);
-        let mut after = vec![0.0; steps + 1];
-        for (i, sum) in after.iter_mut().enumerate() {
-            *sum = (0..i)
-                .map(|j| failing[j] * after_failure[i - j - 1] + planned[j] * after_plan[i - j - 1])
-                .sum();
-        }
-        counts.push((before[steps] - after[steps]).max(0.0));
-        if after[steps] < LEFT_OUT {
+    let coarsest = time / (STEPS * time / spread).clamp(STEPS_BETWEEN.0, STEPS_BETWEEN.1);
+    // From one planned replacement to the next there are whole steps: all parts are replaced at one age, and what that is off adds up.
+    let turn = life.age.map(|age| age + standstill.preventive).filter(|turn| *turn >= coarsest);
+    let step = turn.map_or(coarsest, |turn| turn / (turn / coarsest).ceil());
+    // Times count from the end back, which they meet with both.
+    let steps = (time / step) as usize;
+    let times = (0..=steps).map(|i| time - step * (steps - i) as f64 + AT_THE_END * step);
+    // Probability that the k-th replacement comes until each of them. The first counts when it begins, before its standstill.
+    let mut before: Vec<f64> = times.map(|t| life.failed(t)).collect();
+    let mut counts = vec![1.0 - before[steps]];
+    let ended = between_replacements(life, standstill, step, steps);
+    for k in 1.. {
+        if before[steps] < LEFT_OUT {
             break;
         }
-        if k == MOST {
+        if k > MOST {
             return Ok(None);
         }
+        let mut after = vec![0.0; steps + 1];
+        for (j, part) in ended.iter().enumerate().filter(|(_, part)| **part > 0.0) {
+            for (sum, left) in after[j..].iter_mut().zip(&before) {
+                *sum += part * left;
+            }
+        }
+        counts.push((before[steps] - after[steps]).max(0.0));
         before = after;
     }
     Ok(Some(counts))
 }
 
-/// What a function over steps is half a step and `standstill` steps before the end of each; 0 before its begin.
-fn left_after(of: &[f64], standstill: f64) -> Vec<f64> {
-    let value = |end: usize| {
-        let place = end as f64 - 0.5 - standstill;
-        let (first, part) = (place.floor(), place - place.floor());
-        let at = |place: f64| if place < 0.0 { 0.0 } else { of[place as usize] };
-        (1.0 - part) * at(first) + part * at(first + 1.0)
+/// Probability that from one replacement to the next there are 0, 1, .. steps: a life and the standstill before it. What ends between
+/// two whole numbers is shared so that its mean is kept: the rule of trapezia.
+fn between_replacements(life: &PlannedLife<'_>, standstill: Standstill, step: f64, steps: usize) -> Vec<f64> {
+    let mut ended = vec![0.0; steps + 1];
+    let mut add = |after: f64, part: f64| {
+        let (whole, rest) = (after.floor() as usize, after - after.floor());
+        for (place, share) in [(whole, 1.0 - rest), (whole.saturating_add(1), rest)] {
+            if let Some(sum) = ended.get_mut(place) {
+                *sum += share * part;
+            }
+        }
     };
-    (1..of.len()).map(value).collect()
+    let age = life.age.unwrap_or(f64::INFINITY);
+    let mut from = (0.0, 0.0);
+    for i in 1..=steps + 1 {
+        let t = age.min(step * i as f64);
+        let to = (t, life.life.failed(t));
+        add((middle(life, from, to, HALVINGS) + standstill.failure) / step, to.1 - from.1);
+        from = to;
+        if t >= age {
+            add((age + standstill.preventive) / step, life.life.reliability(age));
+            break;
+        }
+    }
+    ended
+}
+
+/// When those fail, in the mean, that fail between two times, each with the part that has failed until then.
+fn middle(life: &PlannedLife<'_>, from: (f64, f64), to: (f64, f64), halvings: u32) -> f64 {
+    let (half, part) = (0.5 * (from.0 + to.0), to.1 - from.1);
+    if part < MUCH || halvings == 0 {
+        return half;
+    }
+    let at = (half, life.life.failed(half));
+    let [first, second] = [(from, at), (at, to)].map(|(from, to)| middle(life, from, to, halvings - 1));
+    (first * (at.1 - from.1) + second * (to.1 - at.1)) / part
 }
 
 /// Probabilities of `first`, `first + 1`, ..

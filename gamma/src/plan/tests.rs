@@ -1,8 +1,5 @@
 //! Plans against published examples, closed forms and simulation.
 
-use rand::RngExt;
-use rand::distr::Open01;
-
 use super::*;
 use crate::life::{Clock, Law, Lifetime, Weibull};
 use crate::process::{Gamma, InverseGaussian, Process, Wiener};
@@ -239,102 +236,6 @@ fn questions_without_an_answer_say_so() {
     assert!(matches!(often, Err(PlanError::TooOften { .. })), "{often:?}");
     let free = Looks::new(0.0, None).expect("valid");
     assert!(best_inspection(&part, &costs, &free, None, None).is_err());
-}
-
-#[test]
-fn replacements_of_exponential_lives_are_poisson() {
-    let life = Weibull { scale: 2.0, shape: 1.0 };
-    for (parts, time) in [(1, 4.0), (7, 3.0), (200, 1.0)] {
-        let mean = parts as f64 * time / 2.0;
-        let found =
-            spares(&PlannedLife { life: &life, age: None }, Standstill::default(), (parts, time), 0.95)
-                .expect("valid");
-        assert!((found.mean / mean - 1.0).abs() < 1e-6, "{} {mean}", found.mean);
-        let (mut p, mut sum, mut needed) = ((-mean).exp(), 0.0, 0);
-        for k in 0.. {
-            if let Some(count) = k_of(&found, k) {
-                // The rule of trapezia at 2000 steps and more, over 200 parts.
-                assert!((count - p).abs() < 1e-5, "{parts} {k}: {count} {p}");
-            }
-            sum += p;
-            if sum < 0.95 {
-                needed = k + 1;
-            }
-            if sum > 1.0 - 1e-9 {
-                break;
-            }
-            p *= mean / (k as f64 + 1.0);
-        }
-        assert_eq!(found.needed, needed);
-    }
-}
-
-fn k_of(found: &Spares, k: usize) -> Option<f64> {
-    k.checked_sub(found.first).and_then(|at| found.counts.get(at).copied())
-}
-
-#[test]
-fn parts_replaced_at_an_age_need_as_many_spares_as_ages_fit() {
-    let life = Weibull { scale: 100.0, shape: 5.0 };
-    let planned = PlannedLife { life: &life, age: Some(10.0) };
-    let at_once = Standstill::default();
-    let found = spares(&planned, at_once, (3, 35.0), 0.9).expect("valid");
-    // 3 in 35, hardly a failure before.
-    assert!((found.mean - 9.0).abs() < 1e-2, "{found:?}");
-    assert_eq!(found.needed, 9);
-    let plain = PlannedLife { life: &life, age: None };
-    let without = spares(&plain, at_once, (3, 35.0), 0.9).expect("valid");
-    assert!(without.mean < 0.1, "{without:?}");
-    assert_eq!(spares(&plain, at_once, (0, 35.0), 0.9), Err(PlanError::NoParts));
-    assert!(matches!(spares(&plain, at_once, (1, 1e6), 0.9), Err(PlanError::TooMany { .. })));
-    assert!(spares(&plain, at_once, (1, 1.0), 1.0).is_err());
-    let negative = Standstill { failure: -1.0, ..at_once };
-    assert!(spares(&plain, negative, (1, 1.0), 0.9).is_err());
-}
-
-#[test]
-fn standstills_come_between_replacements() {
-    let none = Standstill::default();
-    // Planned ones alone: at 10, 30, 50.
-    let life = Weibull { scale: 1000.0, shape: 5.0 };
-    let standstill = Standstill { preventive: 10.0, ..none };
-    let found =
-        spares(&PlannedLife { life: &life, age: Some(10.0) }, standstill, (3, 55.0), 0.9).expect("valid");
-    assert!((found.mean - 9.0).abs() < 1e-2 && found.needed == 9, "{found:?}");
-    // Exponential lives of mean 1: the k-th replacement comes after k of them and k - 1 standstills of 0.7.
-    let life = Weibull { scale: 1.0, shape: 1.0 };
-    let plain = PlannedLife { life: &life, age: None };
-    let found = spares(&plain, Standstill { failure: 0.7, ..none }, (1, 4.0), 0.9).expect("valid");
-    let erlang = |k: i32, t: f64| {
-        let term = |i: i32| (1..=i).fold((-t).exp(), |product, j| product * t / f64::from(j));
-        if t > 0.0 { 1.0 - (0..k).map(term).sum::<f64>() } else { 0.0 }
-    };
-    let mean: f64 = (1..=6).map(|k| erlang(k, 4.0 - 0.7 * f64::from(k - 1))).sum();
-    assert!((found.mean - mean).abs() < 1e-5, "{} {mean}", found.mean);
-    // Both kinds, the longer standstill after failures, beside drawn histories.
-    let age = 1.2;
-    let standstill = Standstill { preventive: 0.2, failure: 0.9 };
-    let found =
-        spares(&PlannedLife { life: &life, age: Some(age) }, standstill, (1, 6.0), 0.9).expect("valid");
-    let mut stream = Stream::new(5, 0, 0);
-    let (mut sum, mut squares, drawn) = (0.0, 0.0, 100_000);
-    for _ in 0..drawn {
-        let (mut time, mut count) = (0.0, 0.0);
-        loop {
-            let own = -stream.sample::<f64, _>(Open01).ln();
-            time += own.min(age);
-            if time > 6.0 {
-                break;
-            }
-            count += 1.0;
-            time += if own < age { standstill.failure } else { standstill.preventive };
-        }
-        sum += count;
-        squares += count * count;
-    }
-    let mean = sum / f64::from(drawn);
-    let error = ((squares / f64::from(drawn) - mean * mean) / f64::from(drawn)).sqrt();
-    assert!((found.mean - mean).abs() < 4.0 * error, "{} {mean} +- {error}", found.mean);
 }
 
 /// The expectation over drawn wear, each followed by the cheapest age on a fine grid, all sums by hand.
