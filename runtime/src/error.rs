@@ -1,5 +1,5 @@
 //! What can go wrong when a mechanism is set up or run, as data. Every message says what happened,
-//! where, and what to try. Out: error types.
+//! where, and behind its last semicolon what to try. Out: error types, [`what_and_cure`].
 
 use thiserror::Error;
 
@@ -74,8 +74,8 @@ pub enum SetupError {
     },
     /// The clearance of a joint is no clearance of its journal.
     #[error(
-        "joint `{joint}` has a radial clearance of {clearance:.4e} m on a journal of radius {journal_radius:.4e} m; \
-         it must be above zero and below the radius: change the parameters it comes from"
+        "joint `{joint}` has a radial clearance of {clearance:.4e} m on a journal of radius {journal_radius:.4e} m: \
+         it must be above zero and below the radius; change the parameters it comes from"
     )]
     Clearance {
         /// The joint.
@@ -87,8 +87,8 @@ pub enum SetupError {
     },
     /// A law changed where the mechanism cannot follow at once.
     #[error(
-        "{what} would jump by {jump:.3e} (m, rad, or per second) with the new values of the parameters; such values belong to a \
-         start: begin another simulation with them"
+        "{what} would jump by {jump:.3e} (m, rad, or per second) with the new values of the parameters: such values belong to a \
+         start; begin another simulation with them"
     )]
     Jump {
         /// What would jump.
@@ -173,8 +173,8 @@ pub enum AssemblyError {
     /// The loops close, but not with the demanded start values.
     #[error(
         "the start values of {} cannot all be met: with them the loops stay open by {residual_m:.3e} m and \
-         {residual_rad:.3e} rad; make some of them guesses, or change them; those that [initial] does not have follow from \
-         the drivers, which then ask for what the loops do not allow",
+         {residual_rad:.3e} rad; make some of them guesses, or change them (those that [initial] does not have follow from \
+         the drivers, which then ask for what the loops do not allow)",
         names.join(", ")
     )]
     HeldPositions {
@@ -188,8 +188,8 @@ pub enum AssemblyError {
     /// Consistent speeds exist, but not with the demanded start speeds.
     #[error(
         "the start speeds of {} contradict the loops at joint `{joint}` (residual {residual:.3e} m/s or rad/s); \
-         make some of them guesses, or change them; those that [initial] does not have follow from \
-         the drivers, which then ask for what the loops do not allow",
+         make some of them guesses, or change them (those that [initial] does not have follow from \
+         the drivers, which then ask for what the loops do not allow)",
         names.join(", ")
     )]
     HeldSpeeds {
@@ -202,8 +202,8 @@ pub enum AssemblyError {
     },
     /// The drivers demand speeds that the loops forbid in the start position.
     #[error(
-        "no speeds fit the loops at joint `{joint}` in the start position (residual {residual:.3e} m/s or rad/s); \
-         a driver pushes against a dead point: start elsewhere, or drive another joint"
+        "no speeds fit the loops at joint `{joint}` in the start position (residual {residual:.3e} m/s or rad/s): \
+         a driver pushes against a dead point; start elsewhere, or drive another joint"
     )]
     SpeedsImpossible {
         /// Cut joint with the largest residual.
@@ -276,8 +276,8 @@ pub enum RunError {
     },
     /// The step size control found no step that meets the tolerance.
     #[error(
-        "at t = {t} s the step had to shrink below {step:.3e} s, because of `{variable}`; the mechanism may pass \
-         a singular position or a very stiff force acts there: loosen the tolerance, or soften the force"
+        "at t = {t} s the step had to shrink below {step:.3e} s, because of `{variable}`: the mechanism may pass \
+         a singular position or a very stiff force acts there; loosen the tolerance, or soften the force"
     )]
     StepTooSmall {
         /// Time reached.
@@ -289,7 +289,7 @@ pub enum RunError {
     },
     /// A driver cannot move on: the loops let it go no further.
     #[error(
-        "at t = {t:.9} s the driver of `{joint}` is at its dead point, {}, where the loops let it go no further: let \
+        "at t = {t:.9} s the driver of `{joint}` is at its dead point, {}, where the loops let it go no further; let \
          its law turn round before, change lengths, or drive another joint",
         if *angular { format!("{:.6} deg", position.to_degrees()) } else { format!("{position:.9} m") }
     )]
@@ -305,8 +305,8 @@ pub enum RunError {
     },
     /// A loop can no longer be closed.
     #[error(
-        "at t = {t} s joint `{joint}` cannot be closed any more ({residual_m:.3e} m, {residual_rad:.3e} rad); the \
-         driver pushes past a dead point, or the step is too long: check the driver's range, or shorten the step"
+        "at t = {t} s joint `{joint}` cannot be closed any more ({residual_m:.3e} m, {residual_rad:.3e} rad): the \
+         driver pushes past a dead point, or the step is too long; check the driver's range, or shorten the step"
     )]
     LostAssembly {
         /// Time at which closing failed.
@@ -344,7 +344,7 @@ pub enum RunError {
     /// The mass matrix is asked for, and it is left out of the equations of so long a mechanism.
     #[error(
         "at t = {t} s the mass matrix is asked for, by the integrator or where loops lose their hold (a singular position), and it \
-         is left out of mechanisms as long as this one: take another integrator, start elsewhere, or split the mechanism"
+         is left out of mechanisms as long as this one; take another integrator, start elsewhere, or split the mechanism"
     )]
     MassLeftOut {
         /// Time at which it was evaluated.
@@ -409,7 +409,8 @@ pub enum RunError {
     },
     /// A run failed on its way through a singular position.
     #[error(
-        "{cause}; near t = {t:.6} s the mechanism passes a singular position, where its loops could go on in two ways: {}",
+        "{} (near t = {t:.6} s the mechanism passes a singular position, where its loops could go on in two ways); {}",
+        what_and_cure(&cause.to_string()).0,
         if *is_adaptive {
             "start elsewhere, change a length, or add a link that holds the loop there"
         } else {
@@ -472,6 +473,11 @@ pub enum RunError {
     },
 }
 
+/// A message of these errors in two: what happened, and what to try, which is empty where nothing can be tried.
+pub fn what_and_cure(message: &str) -> (&str, &str) {
+    message.rsplit_once("; ").unwrap_or((message, ""))
+}
+
 /// A number as people write it.
 fn plain(value: f64) -> String {
     if is_long(value) { format!("{value:e}") } else { format!("{value}") }
@@ -480,4 +486,33 @@ fn plain(value: f64) -> String {
 /// Whether plain digits of a number are so many that people write an exponent.
 pub(crate) fn is_long(value: f64) -> bool {
     value != 0.0 && value.is_finite() && !(1e-5..1e16).contains(&value.abs())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_message_has_its_cure_behind_its_last_semicolon() {
+        let messages = include_str!("error.rs").split("#[cfg(test)]").next().unwrap_or_default();
+        let messages = messages.split("#[error(").skip(1);
+        let messages: Vec<&str> = messages.filter_map(|rest| rest.split(")]").next()).collect();
+        // Others hand on what has its cure.
+        let hands_on = |text: &str| text.starts_with("transparent") || text.ends_with("{reason}\"");
+        let own: Vec<&&str> = messages.iter().filter(|text| !hands_on(text)).collect();
+        assert!(own.len() > 30, "{}", own.len());
+        for text in own {
+            // A message ends with its text or with the last of its values.
+            assert!(what_and_cure(text).1.len() > 10, "{text}");
+        }
+    }
+
+    #[test]
+    fn what_failed_in_a_singular_position_has_one_cure() {
+        let cause = Box::new(RunError::NewtonFailed { t: 0.1, step: 1e-3, correction: 2.0 });
+        let text = RunError::InSingularPosition { t: 0.2, is_adaptive: true, cause }.to_string();
+        let (what, cure) = what_and_cure(&text);
+        assert!(what.contains("did not converge") && what.contains("singular position"), "{what}");
+        assert_eq!(cure, "start elsewhere, change a length, or add a link that holds the loop there");
+    }
 }

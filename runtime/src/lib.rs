@@ -125,7 +125,7 @@ pub use {
     },
     dynamics::{Dynamics, SINGULAR_PIVOT},
     dynamics_source::{DynamicsSource, Orbit, RevolutionSettings, Steadiness},
-    error::{AssemblyError, NoColumn, RunError, SetupError},
+    error::{AssemblyError, NoColumn, RunError, SetupError, what_and_cure},
     evaluate::{
         Accelerations, CLOSED, CLOSED_AT_START, Closure, Equations, Evaluator, Forward, LoopError, Rates,
     },

@@ -18,7 +18,7 @@ use clap::error::ErrorKind;
 use linkwear_codegen::diagnostic::{Diagnostics, nearest};
 use linkwear_codegen::input::NotUtf8;
 use linkwear_gamma::FitFileError;
-use linkwear_runtime::RunError;
+use linkwear_runtime::{RunError, what_and_cure};
 use serde_json::{Value, json};
 
 use super::answer::Answer;
@@ -138,12 +138,21 @@ impl Failure {
                 let help = kept.unwrap_or_else(|| "a run begins anew".to_owned());
                 Self::stopped(file, format_args!("stopped on request at t = {t} s"), help)
             }
-            error => Self::new(RUN_FAILED, Some(file), error, kept.unwrap_or_default()),
+            error => {
+                let text = error.to_string();
+                let (what, cure) = what_and_cure(&text);
+                let help =
+                    [Some(cure.to_owned()), kept].into_iter().flatten().filter(|part| !part.is_empty());
+                Self::new(RUN_FAILED, Some(file), what, help.collect::<Vec<_>>().join("; "))
+            }
         }
     }
 
-    /// A life could not be lived to its end.
+    /// A life could not be lived to its end. Without other help, that of a run which failed.
     pub fn life(file: &Path, message: impl Display, help: impl Display) -> Self {
+        let (text, help) = (message.to_string(), help.to_string());
+        let (what, cure) = what_and_cure(&text);
+        let (message, help) = if help.is_empty() { (what, cure) } else { (&*text, &*help) };
         Self::new(LIFE_FAILED, Some(file), message, help)
     }
 
