@@ -52,6 +52,7 @@ fn diagnostics_of(case: &str) -> Diagnostics {
                 "W0121",
                 "W0124",
                 "W0126",
+                "W0127",
             ]
             .iter()
             .any(|code| case.starts_with(code))

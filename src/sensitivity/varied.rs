@@ -97,8 +97,8 @@ impl Variant {
         if joints.is_empty() {
             return Err(SensitivityError::NothingWears);
         }
-        let motion = motion(compiled.tapes(), &plan);
-        let closure = compiled.tapes()[Entry::Closure as usize].clone();
+        let motion = motion(compiled.tapes(), &plan).constants_first();
+        let closure = compiled.tapes()[Entry::Closure as usize].clone().constants_first();
         drop(source);
         Ok(Self { motion, closure, turn, joints, compiled })
     }

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 
 use crate::block::Block;
-use crate::operation::Operand;
+use crate::operation::{Binary, Op, Operand};
 use crate::tape::Tape;
 
 impl Tape {
@@ -20,6 +20,20 @@ impl Tape {
             tape
         };
         blank(self) == blank(other)
+    }
+
+    /// The same with the constant first in every sum and product that has one, to the same bits: which operand was there first may
+    /// go by a constant's digits, where two that are one number but for rounding share a place or do not.
+    #[must_use]
+    pub fn constants_first(mut self) -> Self {
+        for statement in &mut self.statements {
+            if let Op::Binary(operation @ (Binary::Add | Binary::Mul), one, constant @ Operand::Constant(_)) =
+                statement.op
+            {
+                statement.op = Op::Binary(operation, constant, one);
+            }
+        }
+        self
     }
 
     /// Constants by which this tape and others of its form differ become inputs behind its own. Beside the tape: of each such input its

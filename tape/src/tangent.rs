@@ -210,4 +210,25 @@ mod tests {
         routine.run(&[2.0, 3.5], &mut answer, &mut vec![0.0; routine.workspace()]);
         assert_eq!(answer, [11.0]);
     }
+
+    /// Where a sum or product has its constant is no form, and changes no bit.
+    #[test]
+    fn constants_have_one_place() {
+        let tape = |swapped: bool| {
+            let recorder = Recorder::default();
+            let x = recorder.input(0);
+            let [two, three] = [2.1, 3.3].map(Number::Known);
+            let output = if swapped { two + three * x - x * x } else { x * three + two - x * x };
+            let output = Recorder::operand(output);
+            recorder.finish("line", 1, &[output])
+        };
+        let (one, other) = (tape(false), tape(true));
+        assert!(one.clone().constants_first().has_form_of(&other.clone().constants_first()));
+        let answers = [one.clone().constants_first(), one, other].map(|tape| {
+            let (routine, mut answer) = (Routine::new(&tape), [0.0]);
+            routine.run(&[0.7], &mut answer, &mut vec![0.0; routine.workspace()]);
+            answer[0].to_bits()
+        });
+        assert_eq!(answers, [answers[0]; 3]);
+    }
 }

@@ -401,6 +401,42 @@ fn only_differences_of_lambda_count_and_no_row_is_made_up() {
     }
 }
 
+/// Each joint of a life has a Lambda of its own: that of the joint that fails first is no other's.
+#[test]
+fn of_a_life_of_several_joints_the_one_that_is_fitted_is_named() {
+    let folder = Folder::new("fit-lambda-joints");
+    let cycle =
+        r#"{ "joints": [{ "joint": "R2", "dLambda_m": 1e-6 }, { "joint": "R3.end1", "dLambda_m": 4e-6 }] }"#;
+    let life = format!(r#"{{ "failed_joint": "R3.end1", "cycles": [{}] }}"#, [cycle; 20].join(", "));
+    let life = folder.write("life.json", &life);
+    let rows = "a,0,0\na,6,7\na,20,19\nb,0,0\nb,9,8\nb,20,23\n";
+    let file = folder.write("wear.csv", &format!("unit,cycles,wear_um\n{rows}"));
+    let table = folder.write("lambda.csv", "cycles,lambda_um\n0,0\n20,20\n");
+    let of = |lambda: &str| fit(&file, &["--lambda", lambda]);
+    let [own, other] = ["R2", "R3.end1"].map(|joint| of(&format!("{joint}={life}")));
+    let by_table = of(&table);
+    for key in ["alpha", "beta", "log_likelihood"] {
+        let number = |fit: &Value| fit[key].as_f64().expect("a number");
+        // Lambda of R2 is the table's but for rounding of its sum.
+        assert!((number(&own) / number(&by_table) - 1.0).abs() < 1e-9, "{key}");
+        // The same wear over four times the Lambda: a quarter of alpha, and all else alike.
+        let expected = number(&own) * if key == "alpha" { 0.25 } else { 1.0 };
+        assert!((number(&other) / expected - 1.0).abs() < 1e-9, "{key}");
+    }
+    for (lambda, message) in [
+        (life.clone(), "has the Lambda of 2 joints"),
+        (format!("R4={life}"), "no joint `R4` wears in"),
+        (format!("R2={table}"), "is a table"),
+    ] {
+        let answer =
+            linkwear(&[&["fit", &file], &COLUMNS[..], &["--lambda", &lambda, "--format", "json"]].concat());
+        let error = answer.errors()[0].clone();
+        assert!(error["message"].as_str().expect("a text").contains(message), "{error}");
+        let names_them = error["help"].as_str().expect("a text").contains("R2, R3.end1");
+        assert_eq!(names_them, message != "is a table", "{error}");
+    }
+}
+
 #[test]
 fn lambda_comes_from_a_life_from_a_table_or_from_a_column_alike() {
     let folder = Folder::new("fit-lambda");

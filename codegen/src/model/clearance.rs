@@ -34,6 +34,8 @@ pub struct ClearancePlaces {
     pub coefficient: Span,
     /// Of the wear threshold.
     pub threshold: Span,
+    /// Of the revolutions that a cycle stands for, of the table [wear] where these are not written.
+    pub cycle: Span,
 }
 
 /// A place where the two sides of a joint with clearance touch.

@@ -9,6 +9,7 @@ mod assemblies;
 mod case;
 mod contact_resonance;
 mod course;
+mod cycles;
 mod exactness;
 mod failures;
 mod fast;

@@ -234,6 +234,8 @@ codes! {
     ModalMass = "W0125",
     /// A drive or a start value of a speed that no material stands.
     TooFast = "W0126",
+    /// Joints of one machine whose cycles stand for different numbers of revolutions.
+    UnequalCycles = "W0127",
 }
 
 impl Code {

@@ -170,8 +170,8 @@ pub struct FitArguments {
     #[arg(long, value_name = "COL")]
     pub exposure: Option<String>,
     /// Column of Lambda; or, with --exposure in cycles, a file that has Lambda by exposure: the JSON of `life`, taken in
-    /// um, or a CSV of two columns.
-    #[arg(long, value_name = "COL|FILE")]
+    /// um, of several wearing joints with the one that is fitted, as R2=life.json; or a CSV of two columns.
+    #[arg(long, value_name = "COL|[JOINT=]FILE")]
     pub lambda: Option<String>,
     /// Process of wear; `predict` goes by the one that was fitted.
     #[arg(long, value_name = "PROCESS", default_value = "gamma", value_parser = one_of(PROCESSES.map(|process| (process.name(), process))))]

@@ -22,13 +22,16 @@ pub struct LambdaTable {
 }
 
 impl LambdaTable {
-    /// From a file.
+    /// From a file; of which joint, if a life has several.
     ///
     /// # Errors
-    /// [`Failure`], if it has no Lambda that rises with exposure.
-    pub fn read(path: &Path) -> Result<Self, Failure> {
+    /// [`Failure`], if it has no Lambda that rises with exposure, or does not say whose.
+    pub fn read(path: &Path, joint: Option<&str>) -> Result<Self, Failure> {
         let points = if path.extension().is_some_and(|extension| extension == "json") {
-            of_life(path)?
+            of_life(path, joint)?
+        } else if let Some(joint) = joint {
+            let message = format!("`{}` is a table, which has no joint `{joint}`", path.display());
+            return Err(Failure::data(path, None, message, "leave the joint out: a table has one Lambda"));
         } else {
             let table = CsvTable::read(path)?;
             table.numbers_at(0)?.into_iter().zip(table.numbers_at(1)?).collect()
@@ -60,15 +63,39 @@ impl LambdaTable {
     }
 }
 
-/// Lambda \[um\], the unit of the Gamma layer, of a new joint and after each cycle, of the joint that failed.
-fn of_life(path: &Path) -> Result<Vec<(f64, f64)>, Failure> {
+/// Joint and file of `JOINT=FILE`, or the file alone.
+pub fn named(text: &str) -> (Option<&str>, &Path) {
+    let both = text.split_once('=').map(|(joint, path)| (Some(joint.trim()), Path::new(path.trim())));
+    both.filter(|(_, path)| !Path::new(text).exists() && path.exists()).unwrap_or((None, Path::new(text)))
+}
+
+/// Lambda \[um\], the unit of the Gamma layer, of a new joint and after each cycle. Each joint of a life has its own.
+fn of_life(path: &Path, joint: Option<&str>) -> Result<Vec<(f64, f64)>, Failure> {
     let text = read_text(path, limits::DATA_BYTES).map_err(Failure::read(path))?;
     let foreign = || {
         let help = "write it by `linkwear life FILE --format json > life.json`";
         Failure::data(path, None, format!("`{}` is no result of `life`", path.display()), help)
     };
     let life: Value = serde_json::from_str(&text).map_err(|_| foreign())?;
-    let joint = life["failed_joint"].as_str().ok_or_else(foreign)?;
+    let first = life["cycles"][0]["joints"].as_array().ok_or_else(foreign)?;
+    let joints: Vec<&str> = first.iter().filter_map(|entry| entry["joint"].as_str()).collect();
+    let joint = match (joint, joints.as_slice()) {
+        (None, [only]) => *only,
+        (_, []) => return Err(foreign()),
+        (Some(joint), _) if joints.contains(&joint) => joint,
+        _ => {
+            let path = path.display();
+            let message = match joint {
+                Some(joint) => format!("no joint `{joint}` wears in `{path}`"),
+                None => format!(
+                    "`{path}` has the Lambda of {} joints, and does not say whose wear this is",
+                    joints.len()
+                ),
+            };
+            let help = format!("write --lambda JOINT={path}; wearing joints: {}", joints.join(", "));
+            return Err(Failure::usage(message, help));
+        }
+    };
     let mut sum = 0.0;
     let mut points = vec![(0.0, 0.0)];
     for (at, cycle) in life["cycles"].as_array().ok_or_else(foreign)?.iter().enumerate() {
@@ -87,7 +114,7 @@ mod tests {
     fn table(name: &str, rows: &str) -> Result<LambdaTable, Failure> {
         let path = std::env::temp_dir().join(format!("linkwear-lambda-{}-{name}.csv", std::process::id()));
         std::fs::write(&path, format!("exposure,lambda\n{rows}")).expect("a temporary file");
-        let read = LambdaTable::read(&path);
+        let read = LambdaTable::read(&path, None);
         std::fs::remove_file(path).expect("the file");
         read
     }

@@ -10,7 +10,7 @@ use linkwear_gamma::data::Reading;
 use super::super::arguments::FitArguments;
 use super::super::failure::Failure;
 use super::field::{limits, resets, wears};
-use super::lambda::LambdaTable;
+use super::lambda::{LambdaTable, named};
 
 /// Readings of one group; of all data when there are no groups.
 pub struct Group {
@@ -84,7 +84,7 @@ fn clock(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<f64>, Fai
     if table.has(lambda) {
         return Ok(table.numbers(lambda)?);
     }
-    let path = Path::new(lambda);
+    let (joint, path) = named(lambda);
     if !path.exists() {
         // As a column it is missing: says what there is.
         table.numbers(lambda)?;
@@ -94,7 +94,7 @@ fn clock(arguments: &FitArguments, table: &CsvTable<'_>) -> Result<Vec<f64>, Fai
         let help = "add --exposure COL, in what the file counts in (cycles of `life`)";
         return Err(Failure::usage(message, help));
     };
-    let by_exposure = LambdaTable::read(path)?;
+    let by_exposure = LambdaTable::read(path, joint)?;
     let [begin, end] = by_exposure.range;
     if !by_exposure.begins_at_zero() && (arguments.from_zero || arguments.entered_below.is_some()) {
         let option = if arguments.from_zero { "--from-zero" } else { "--entered-below" };

@@ -140,6 +140,9 @@ impl Resolver<'_> {
                 hardness: place(wears.and_then(|wear| wear.hardness.as_ref())),
                 coefficient: place(wears.and_then(|wear| wear.coefficient.as_ref())),
                 threshold: place(wears.and_then(|wear| wear.threshold.as_ref())),
+                cycle: wear.map_or(radial.span, |(_, table)| {
+                    table.value.revolutions_per_cycle.as_ref().map_or(table.span, |quantity| quantity.span)
+                }),
             };
             joint.clearance = Some(Box::new(Clearance { radial, laws, journal, factor, places }));
         }

@@ -361,4 +361,38 @@ hinge = { v = "2*pi*6e9 rpm" }"#,
         right: r#"[initial]
 hinge = { v = "2*pi*600 rpm" }"#,
     },
+    Explanation {
+        code: Code::UnequalCycles,
+        file: File::Press,
+        text: "A life goes cycle by cycle, all joints together. Where a cycle stands for a million revolutions at one joint and \
+               for one at another, the other has hardly worn when the first fails, and the life has no hours. The key is \
+               written once for each joint; without it a cycle is one revolution.",
+        wrong: r#"[wear.pin]
+revolutions_per_cycle = 1e6
+
+[clearance.wrist]
+radial = "25 um"
+journal_radius = "12 mm"
+length = "20 mm"
+modulus = "115 GPa"
+
+[wear.wrist]
+coefficient = 1e-8
+hardness = "3.5 GPa"
+threshold = "80 um""#,
+        right: r#"[wear.pin]
+revolutions_per_cycle = 1e6
+
+[clearance.wrist]
+radial = "25 um"
+journal_radius = "12 mm"
+length = "20 mm"
+modulus = "115 GPa"
+
+[wear.wrist]
+coefficient = 1e-8
+hardness = "3.5 GPa"
+threshold = "80 um"
+revolutions_per_cycle = 1e6"#,
+    },
 ];
