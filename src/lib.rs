@@ -30,8 +30,6 @@ pub mod files;
 pub mod fmu;
 pub mod identify;
 #[cfg(feature = "cli")]
-pub mod import;
-#[cfg(feature = "cli")]
 pub mod inputs;
 pub mod journal;
 pub mod life;
@@ -52,6 +50,8 @@ pub mod table;
 pub mod wear_measure;
 
 pub use linkwear_codegen as codegen;
+#[cfg(feature = "cli")]
+pub use linkwear_import as import;
 pub use linkwear_native as native;
 pub use linkwear_runtime as runtime;
 pub use linkwear_shipped as mechanisms;

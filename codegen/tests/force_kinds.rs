@@ -18,10 +18,7 @@ fn a_kind_is_named_in_the_table_and_with_its_equations_only() {
             let of_elements = ["\"force\", name", "Force(_) =>"];
             of_joints.iter().chain(&of_elements).any(|words| line.contains(words))
         };
-        let mut found =
-            files_with(|line| line.contains(&name) && !other(line) && !line.contains("made.append"));
-        // A robot's file has words of its own.
-        found.retain(|file| !file.starts_with("src/import/"));
+        let found = files_with(|line| line.contains(&name) && !other(line) && !line.contains("made.append"));
         assert_eq!(found, [EQUATIONS, TABLE], "{name}");
     }
 }

@@ -124,6 +124,7 @@ fn only_foreign_edges_are_without_the_compilers_guard() {
         "case-study/",
         "codegen/",
         "gamma/",
+        "import/",
         "oracle/",
         "reader/",
         "runtime/",
@@ -178,7 +179,8 @@ fn allowed_arrows_form_no_circle() {
 }
 
 /// Sources of all crates.
-const CRATES: [&str; 11] = [
+const CRATES: [&str; 12] = [
+    "import/src",
     "codegen/src",
     "reader/src",
     "runtime/src",
@@ -249,8 +251,9 @@ fn must_use_stands_on_types() {
 #[test]
 fn libraries_and_programs_deny_what_panics() {
     let lints = ["unwrap_used", "expect_used", "panic", "todo", "unimplemented", "unreachable"];
-    for folder in ["codegen", "fmu", "gamma", "native", "reader", "runtime", "tape", ".", "case-study"]
-        .map(|folder| Path::new(folder).join("src"))
+    for folder in
+        ["codegen", "fmu", "gamma", "import", "native", "reader", "runtime", "tape", ".", "case-study"]
+            .map(|folder| Path::new(folder).join("src"))
     {
         for root in
             ["lib.rs", "main.rs"].map(|root| folder.join(root)).into_iter().filter(|root| root.exists())

@@ -1,5 +1,14 @@
-//! Files of other formats as mechanism files. In: a robot as URDF or MJCF, or a part as STL. Out: a mechanism file as text, and a list of
+//! Files of other formats as mechanism files of linkwear. In: a robot as URDF or MJCF, or a part as STL. Out: a mechanism file as text, and a list of
 //! what it does not carry over. Never knows paths or terminals.
+
+#![deny(
+    clippy::unwrap_used,
+    clippy::expect_used,
+    clippy::panic,
+    clippy::todo,
+    clippy::unimplemented,
+    clippy::unreachable
+)]
 
 mod error;
 mod files;
