@@ -39,7 +39,8 @@ use super::picture;
 
 pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
     let lambda = arguments.lambda.as_deref().filter(|_| arguments.exposure.is_some());
-    let read: Vec<&Path> = [&*arguments.file].into_iter().chain(lambda.map(Path::new)).collect();
+    let read: Vec<&Path> =
+        [&*arguments.file].into_iter().chain(lambda.map(|text| lambda::named(text).1)).collect();
     check_output(&read, arguments.out.as_deref(), arguments.replace)?;
     #[cfg(feature = "page")]
     {

@@ -51,14 +51,16 @@ fn by_bytes(word: &OsStr) -> String {
     format!("$'{}'", chunks.collect::<String>())
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
-    use std::os::unix::ffi::OsStringExt as _;
-
+    #[cfg(unix)]
     use super::*;
 
     #[test]
+    #[cfg(unix)]
     fn words_that_are_not_utf_8_stand_in_the_command_by_their_bytes() {
+        use std::os::unix::ffi::OsStringExt as _;
+
         let words: [&[u8]; 9] = [
             b"lw",
             b"life",

@@ -24,7 +24,6 @@ impl Tape {
 
     /// The same with the constant first in every sum and product that has one, to the same bits: which operand was there first may
     /// go by a constant's digits, where two that are one number but for rounding share a place or do not.
-    #[must_use]
     pub fn constants_first(mut self) -> Self {
         for statement in &mut self.statements {
             if let Op::Binary(operation @ (Binary::Add | Binary::Mul), one, constant @ Operand::Constant(_)) =

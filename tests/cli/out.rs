@@ -343,10 +343,12 @@ fn no_file_is_written_that_is_read_or_twice() {
     assert_eq!(linkwear(&[&lived[..], &["--out", &life]].concat()).code, 0);
     let told = folder.path("life/life.json");
     let fit = with(WRITERS[2], &told);
+    let of_a_joint = format!("R1={told}");
     for (command, kept) in [
         (vec!["merge", &first, &second, "--out", &first], &first),
         (vec!["report", &life, "-o", &told], &told),
         ([&fit[..], &["--lambda", &told]].concat(), &told),
+        ([&fit[..], &["--lambda", &of_a_joint]].concat(), &told),
     ] {
         let before = fs::read(kept).expect("a file");
         let refused = linkwear(&[&command[..], &["--force"]].concat());

@@ -145,6 +145,7 @@ pub fn analyse(case: &Case<'_>) -> Result<Findings, Diagnostics> {
     analysis.idle = idle::idle_freedoms(case, &positions);
     analysis.non_unique = reactions::non_unique(case, &positions);
     warnings.extend(plausible::remarks(mechanism, &analysis));
+    warnings.extend(cycles::remark(mechanism));
     warnings.extend(fast::fast_starts(mechanism));
     warnings.extend(friction::remarks(mechanism, &analysis));
     let course = Course::follow(case, &positions, analysis.idle.len());

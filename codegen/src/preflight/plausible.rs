@@ -8,7 +8,7 @@ use crate::model::{Amount, Body, Carrier, Clearance, Inertia, Joint, Mechanism};
 use crate::source::Span;
 
 use super::analysis::Analysis;
-use super::{cycles, losses};
+use super::losses;
 
 /// A body is too long if it is longer than every other by more than this: linkages whose longest body is a hundred
 /// times the next are not built, and a slip of units makes a factor of a thousand.
@@ -57,7 +57,6 @@ pub fn remarks(mechanism: &Mechanism, analysis: &Analysis) -> Vec<Diagnostic> {
         }
     }
     remarks.extend(losses::remarks(mechanism));
-    remarks.extend(cycles::remark(mechanism));
     remarks.extend(loose(mechanism, analysis));
     remarks
 }
