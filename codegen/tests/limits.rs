@@ -103,3 +103,19 @@ fn of_many_faults_the_first_hundred_are_shown_and_their_number_said() {
     assert_eq!(shown, 100, "{message}");
     assert!(message.contains("faults in all"), "{message}");
 }
+
+/// Ten thousand faults, each within a thing of its own: what is found in one table is found in one reading. By a reading for each
+/// fault this takes hours.
+#[test]
+fn a_fault_in_each_of_many_things_is_told_of_all() {
+    let mut source = chain(20);
+    for i in 0..10_000 {
+        let _ = write!(
+            source.text,
+            "\n[joints.more{i}]\nrevolute = [\"ground\", \"b{i}\"]\nat = [\"0 m\", \"0 m\", \"0 m\"]\n"
+        );
+    }
+    let message = refusal(&source);
+    assert!(message.contains("faults in all"), "{message}");
+    assert!(message.contains("found a list where a text is needed"), "{message}");
+}

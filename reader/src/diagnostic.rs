@@ -90,13 +90,20 @@ impl Diagnostic {
     }
 }
 
+/// Names that are compared: a thousand faults in a file of thousands of names are told in a moment, too.
+const COMPARED: usize = 1000;
+
 /// The known name that a person most likely meant, if any is close.
 pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let folded = wrong.to_lowercase();
     let mut best: Option<(usize, &str)> = None;
-    for name in known {
+    // A third of the letters may be wrong: more is a guess, not help.
+    let may_be_close = |name: &&str| {
+        let (shorter, longer) = (name.len().min(wrong.len()), name.len().max(wrong.len()));
+        (longer - shorter) * 3 <= longer.max(3)
+    };
+    for name in known.into_iter().filter(may_be_close).take(COMPARED) {
         let distance = strsim::osa_distance(&folded, &name.to_lowercase());
-        // A third of the letters may be wrong: more is a guess, not help.
         let longest = wrong.chars().count().max(name.chars().count());
         // Of a name of one letter nothing is left when that is wrong.
         let close = distance * 3 <= longest.max(3) && distance < longest;

@@ -89,6 +89,7 @@ pub fn check_output(read: &[&Path], output: Option<&Path>, replace: Replace) -> 
 }
 
 /// Refuses, before the work, to write two things to one file.
+#[cfg(feature = "page")]
 pub fn check_apart(out: Option<&Path>, plot: Option<&Path>) -> Result<(), Failure> {
     let (Some(out), Some(plot)) = (out, plot) else { return Ok(()) };
     if is_stdout(out) || check_target(out)? || !is_same(out, plot) {

@@ -1,6 +1,8 @@
 //! From the text of a file to [`Spec`]. Faults in single values do not stop it: they wait in the
 //! [`Spec`] until the resolver has found the others, so that a user sees all at once.
 
+use std::collections::HashSet;
+
 use toml::de::DeTable;
 
 use super::file::File;
@@ -44,22 +46,22 @@ pub fn parse(source: &SourceFile) -> Result<Spec, Diagnostics> {
         source: source.clone(),
         file,
         problems: notes.diagnostics,
-        skipped: notes.skipped,
+        skipped: notes.skipped.into_iter().collect(),
         lost: notes.lost,
     })
 }
 
 /// At most one error a line: what follows in a line is usually caused by the first.
 pub(super) fn syntax_errors(source: &SourceFile, errors: &[toml::de::Error]) -> Vec<Diagnostic> {
-    let mut seen = Vec::new();
+    let ends: Vec<usize> = source.text.match_indices('\n').map(|(at, _)| at).collect();
+    let mut seen = HashSet::new();
     let mut list = Vec::new();
     for error in errors {
         let span = error.span().map_or(Span::default(), Span::from);
-        let (line, _) = source.line_column(span.start);
-        if seen.contains(&line) {
+        let line = ends.partition_point(|end| *end < span.start);
+        if !seen.insert(line) {
             continue;
         }
-        seen.push(line);
         let twice = error.message().contains("duplicate key");
         let name = source.text.get(span.start..span.end).filter(|name| twice && !name.is_empty());
         let (message, help) = match name {

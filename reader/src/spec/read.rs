@@ -3,8 +3,10 @@
 //!
 //! A derived `Deserialize` gives up at the first error. So a map entry that fails is reported, put on the
 //! list of entries to skip, and the whole is read again without it; every field of the file is optional.
+//! Tables of named things are read to their end first, so that a thousand faults do not take a thousand readings.
 
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::slice;
 
 use serde::de::value::StrDeserializer;
@@ -30,7 +32,7 @@ pub(super) struct Notes {
     /// Found faults.
     pub diagnostics: Vec<Diagnostic>,
     /// Values that were left out because of them.
-    pub skipped: Vec<Span>,
+    pub skipped: HashSet<Span>,
     /// Their keys, and the keys in tables that were left out: things that the user did write.
     pub lost: Vec<String>,
 }
@@ -292,7 +294,7 @@ impl<'a, 'i> Entries<'a, 'i> {
             if fields.is_some_and(|fields| !fields.contains(&entry.key)) {
                 let mut notes = notes.borrow_mut();
                 notes.diagnostics.push(unknown_key(&entry, fields.unwrap_or_default()));
-                notes.skipped.push(span);
+                notes.skipped.insert(span);
                 if let DeValue::Table(inner) = value.get_ref() {
                     notes.lost.extend(inner.keys().map(|key| key.get_ref().to_string()));
                 }
@@ -339,7 +341,7 @@ impl Entries<'_, '_> {
         let failure = failure.under(key).at_key(key_span);
         let mut notes = self.notes.borrow_mut();
         notes.diagnostics.push(failure.diagnostic(span));
-        notes.skipped.push(span);
+        notes.skipped.insert(span);
         notes.lost.push(key.to_owned());
         Failure::already_reported()
     }

@@ -131,11 +131,14 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
                 formatter.write_str("a table")
             }
             fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Table<T>, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
+                let (mut entries, mut first) = (Vec::new(), None);
+                while let Some(name) = map.next_key()? {
+                    match map.next_value() {
+                        Ok(value) => entries.push((name, value)),
+                        Err(error) => first = first.or(Some(error)),
+                    }
                 }
-                Ok(Table(entries))
+                first.map_or(Ok(Table(entries)), Err)
             }
         }
         deserializer.deserialize_map(Entries(PhantomData))
