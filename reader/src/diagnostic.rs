@@ -103,7 +103,7 @@ pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
         (longer - shorter) * 3 <= longer.max(3)
     };
     for name in known.into_iter().filter(may_be_close).take(COMPARED) {
-        let distance = strsim::osa_distance(&folded, &name.to_lowercase());
+        let distance = slips(&folded, &name.to_lowercase());
         let longest = wrong.chars().count().max(name.chars().count());
         // Of a name of one letter nothing is left when that is wrong.
         let close = distance * 3 <= longest.max(3) && distance < longest;
@@ -114,9 +114,47 @@ pub fn nearest<'a>(wrong: &str, known: impl IntoIterator<Item = &'a str>) -> Opt
     best.map(|(_, name)| name)
 }
 
+/// Letters that are wrong, missing, too many or exchanged with the next one: the distance of optimal string alignment. A crate for it
+/// would be one more that every embedder builds.
+fn slips(one: &str, other: &str) -> usize {
+    let other: Vec<char> = other.chars().collect();
+    let first: Vec<usize> = (0..=other.len()).collect();
+    // The row before the last one, the last one and its letter.
+    let (mut above, mut last, mut letter) = (first.clone(), first, None);
+    for (i, own) in one.chars().enumerate() {
+        let mut row = vec![i + 1];
+        for (j, theirs) in other.iter().enumerate() {
+            let mut least = (last[j] + usize::from(own != *theirs)).min(last[j + 1] + 1).min(row[j] + 1);
+            if j > 0 && own == other[j - 1] && letter == Some(*theirs) {
+                least = least.min(above[j - 1] + 1);
+            }
+            row.push(least);
+        }
+        (above, last, letter) = (last, row, Some(own));
+    }
+    last.last().copied().unwrap_or_default()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn slips_are_counted_each_once() {
+        for (one, other, number) in [
+            ("", "", 0),
+            ("", "abc", 3),
+            ("abc", "", 3),
+            ("crank", "crank", 0),
+            ("crnak", "crank", 1),
+            ("kitten", "sitting", 3),
+            ("ab", "ba", 1),
+            ("ca", "abc", 3),
+            ("\u{b5}m", "um", 1),
+        ] {
+            assert_eq!(slips(one, other), number, "{one} {other}");
+        }
+    }
 
     #[test]
     fn nearest_name_forgives_a_slip_but_not_another_word() {
