@@ -360,7 +360,7 @@ fn chained(before: &[u8; 32], json: &[u8]) -> [u8; 32] {
     hash.finalize()
 }
 
-/// In brackets, where it is known.
+/// What else wrote a journal: another version, which is named where it is known, or another command of this one.
 fn origin(version: Option<&str>) -> String {
     match version {
         // The journal of a life in the place of a study's, or the other way round.

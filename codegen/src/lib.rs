@@ -1,7 +1,7 @@
 //! Compiles a linkage described in TOML into specialised solver code.
 //!
-//! Data flows one way: toml -> [`spec`], which is the crate `linkwear-reader`, -> [`model`] -> [`derive`](mod@derive) -> [`expr`] -> [`tape`] ->
-//! [`backend`]s; [`mod@compile`] calls the stages in order. A build script needs only [`Builder`].
+//! Data flows one way: toml -> [`spec`] -> [`model`] -> [`derive`](mod@derive) -> [`expr`] -> [`tape`] ->
+//! [`backend`]s; [`mod@compile`] calls the stages in order. The first stage is the crate `linkwear-reader`. A build script needs only [`Builder`].
 
 #![deny(
     clippy::unwrap_used,

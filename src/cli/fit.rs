@@ -31,8 +31,6 @@ use self::read::{Group, groups};
 use super::answer::Answer;
 use super::arguments::FitArguments;
 use super::failure::Failure;
-#[cfg(feature = "page")]
-use super::input::check_apart;
 use super::input::check_output;
 #[cfg(feature = "page")]
 use super::picture;
@@ -43,10 +41,12 @@ pub fn run(arguments: &FitArguments) -> Result<Answer, Failure> {
         [&*arguments.file].into_iter().chain(lambda.map(|text| lambda::named(text).1)).collect();
     check_output(&read, arguments.out.as_deref(), arguments.replace)?;
     #[cfg(feature = "page")]
-    {
-        picture::check_plot(&read, arguments.plot.as_deref(), arguments.replace)?;
-        check_apart(arguments.out.as_deref(), arguments.plot.as_deref())?;
-    }
+    picture::check_plot_beside(
+        arguments.out.as_deref(),
+        &read,
+        arguments.plot.as_deref(),
+        arguments.replace,
+    )?;
     let Fitted { answer, file } = fitted(arguments, &CsvTable::read(&arguments.file)?, None)?;
     if let Some(out) = &arguments.out {
         write_whole(out, |out| out.write_all(file.as_bytes()))?;

@@ -88,19 +88,8 @@ pub fn check_output(read: &[&Path], output: Option<&Path>, replace: Replace) -> 
     check_replaced(output, replace)
 }
 
-/// Refuses, before the work, to write two things to one file.
-#[cfg(feature = "page")]
-pub fn check_apart(out: Option<&Path>, plot: Option<&Path>) -> Result<(), Failure> {
-    let (Some(out), Some(plot)) = (out, plot) else { return Ok(()) };
-    if is_stdout(out) || check_target(out)? || !is_same(out, plot) {
-        return Ok(());
-    }
-    let message = format!("--out and --plot are both `{}`", plot.display());
-    Err(Failure::usage(message, "give each a name of its own"))
-}
-
 /// Whether two paths are of one file, which need not be there yet.
-fn is_same(a: &Path, b: &Path) -> bool {
+pub fn is_same(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| {
         path.canonicalize().or_else(|_| {
             folder_of(path).canonicalize().map(|folder| folder.join(path.file_name().unwrap_or_default()))

@@ -4,9 +4,10 @@ use std::io::Write as _;
 use std::path::Path;
 
 use super::failure::Failure;
-use super::input::check_output;
+use super::input::{check_output, is_same};
 use super::options::Replace;
-use crate::files::write_whole;
+use crate::files::{check_target, write_whole};
+use crate::table::is_stdout;
 
 /// Refuses, before the work, to replace what linkwear did not make.
 pub fn may_write(read: &[&Path], out: &Path, replace: Replace) -> Result<(), Failure> {
@@ -53,6 +54,22 @@ pub fn check_plot(read: &[&Path], plot: Option<&Path>, replace: Replace) -> Resu
         check_ending(plot)?;
         may_write(read, plot, replace)
     })
+}
+
+/// The same beside a table or a file that is written too: two things are not written to one file.
+pub fn check_plot_beside(
+    out: Option<&Path>,
+    read: &[&Path],
+    plot: Option<&Path>,
+    replace: Replace,
+) -> Result<(), Failure> {
+    check_plot(read, plot, replace)?;
+    let (Some(out), Some(plot)) = (out, plot) else { return Ok(()) };
+    if is_stdout(out) || check_target(out)? || !is_same(out, plot) {
+        return Ok(());
+    }
+    let message = format!("--out and --plot are both `{}`", plot.display());
+    Err(Failure::usage(message, "give each a name of its own"))
 }
 
 /// Writes charts where they are asked for.

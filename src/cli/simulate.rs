@@ -25,8 +25,6 @@ use super::answer::Answer;
 use super::answer::simulate::{PeakAnswer, SimulateAnswer, TurnAnswer};
 use super::arguments::SimulateArguments;
 use super::failure::{Failure, warnings};
-#[cfg(feature = "page")]
-use super::input::check_apart;
 use super::input::{check_output, check_replaced, load_mechanism};
 use super::options::{IntegratorName, MotionArguments};
 #[cfg(feature = "page")]
@@ -52,10 +50,7 @@ pub fn run(arguments: &SimulateArguments) -> Result<Answer, Failure> {
     let kept = out.map(|out| if is_stream { out.to_path_buf() } else { partial_name(out) });
     kept.as_deref().map_or(Ok(true), |kept| check_replaced(kept, arguments.replace))?;
     #[cfg(feature = "page")]
-    {
-        picture::check_plot(&read, arguments.plot.as_deref(), arguments.replace)?;
-        check_apart(out, arguments.plot.as_deref())?;
-    }
+    picture::check_plot_beside(out, &read, arguments.plot.as_deref(), arguments.replace)?;
     let mechanism = load_mechanism(&arguments.input, arguments.equations)?;
     let asked = Simulation::new(file, &arguments.motion, &mechanism)?;
     let start = Instant::now();

@@ -57,11 +57,14 @@ fn jump(case: &Case<'_>, course: &Course<'_>, (from, end): (&Waypoint, f64), pla
         let waypoint = course.exactly_at(from, t)?;
         Some(case.resistance(t, &waypoint.q, &course.speeds(&waypoint)?))
     };
-    let side = |place: f64, away: f64| -> Vec<Vec<f64>> {
-        (0..NEIGHBOURS).filter_map(|step| forces(place + away * f64::from(step))).collect()
-    };
+    let (one, other) = (forces(low)?, forces(high)?);
     let ends: Vec<Vec<f64>> = [forces(from.t), forces(end)].into_iter().flatten().collect();
-    forces_jump([&side(low, low - high), &side(high, high - low)], &ends).then_some(high)
+    let neighbours = || {
+        [(low, low - high), (high, high - low)].map(|(place, away)| -> Vec<Vec<f64>> {
+            (1..NEIGHBOURS).filter_map(|step| forces(place + away * f64::from(step))).collect()
+        })
+    };
+    forces_jump([&one, &other], &ends, neighbours).then_some(high)
 }
 
 fn warning(mechanism: &Mechanism, course: &Course<'_>, angle: &str, t: f64) -> Diagnostic {

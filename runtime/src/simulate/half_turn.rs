@@ -52,11 +52,13 @@ pub(super) fn check(
         forces(motion, t, &state)
     };
     let ends = [from, to].map(&mut at);
-    let mut side = |place: f64, away: f64| -> Vec<Vec<f64>> {
-        (1..=NEIGHBOURS).map(|step| at(place + away * f64::from(step))).collect()
+    let [one, other] = [before - aside, after + aside].map(&mut at);
+    let neighbours = || {
+        [(before, -aside), (after, aside)].map(|(place, away)| -> Vec<Vec<f64>> {
+            (2..=NEIGHBOURS).map(|step| at(place + away * f64::from(step))).collect()
+        })
     };
-    let sides = [side(before, -aside), side(after, aside)];
-    if forces_jump([&sides[0], &sides[1]], &ends) {
+    if forces_jump([&one, &other], &ends, neighbours) {
         return Err(RunError::AngleJumps { t: after, angle: name.to_owned() });
     }
     Ok(())
