@@ -100,6 +100,14 @@ pub fn positive(text: &str) -> Result<f64, String> {
     }
 }
 
+/// `D|COL`, as it is written: a positive number for all rows, or the column that has one for each. What reads as a number is one.
+pub fn limit(text: &str) -> Result<String, String> {
+    if text.trim().parse::<f64>().is_ok() {
+        positive(text)?;
+    }
+    Ok(text.to_owned())
+}
+
 /// A density with its unit [kg/m^3].
 pub fn density(text: &str) -> Result<f64, String> {
     let found = parse_expression(text, &|_| false).ok().and_then(|read| read.quantity());
@@ -212,6 +220,16 @@ mod tests {
         assert_eq!(part("1%"), part("0.01"));
         for bad in ["0", "1", "100%", "0%", "B1", "-1%"] {
             assert!(part(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn a_limit_is_a_positive_number_or_a_column() {
+        for good in ["0.6", "limit_um"] {
+            assert_eq!(limit(good).as_deref(), Ok(good));
+        }
+        for bad in ["0", "-1", "nan", "inf"] {
+            assert!(limit(bad).is_err(), "{bad}");
         }
     }
 

@@ -152,8 +152,6 @@ fn questions_without_an_answer_are_refused() {
     assert!(message.contains("present wear 5 has reached the threshold 4"), "{message}");
     let message = ask(&[&power, "--threshold", "40", "--current", "5"]);
     assert!(message.contains("give the present exposure"), "{message}");
-    let message = ask(&[&fit, "--threshold", "10", "--current", "5", "--at", "-1"]);
-    assert!(message.contains("present exposure is -1"), "{message}");
     let wrong = linkwear(&["predict", &fit]);
     assert!(wrong.code == 2 && wrong.err.contains("--threshold"), "{}", wrong.err);
     let life = linkwear(&["predict", &power, "--threshold", "40", "--current", "25", "--at", "300"]);

@@ -63,6 +63,16 @@ fn a_negative_number_is_told_what_is_wrong_with_it() {
             "positive number",
         ),
         (&["simulate", "four_bar", "--step", "-0.0001"], "a positive number is needed"),
+        // These were told as mistakes of the file that was read.
+        (&["predict", "fit.json", "--threshold", "10", "--current", "-5"], "a number from 0 on is needed"),
+        (
+            &["predict", "fit.json", "--threshold", "10", "--current", "5", "--at", "-1"],
+            "a number from 0 on is needed",
+        ),
+        (
+            &["fit", "a.csv", "--unit", "u", "--wear", "w", "--exposure", "t", "--entered-below", "-1"],
+            "a positive number is needed",
+        ),
     ] {
         let answer = linkwear(words);
         assert!(answer.code == 2 && answer.err.contains(cause), "{words:?}: {}", answer.err);

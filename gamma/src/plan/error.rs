@@ -63,7 +63,7 @@ pub enum PlanError {
     UnitsDiffer,
     /// Too many parts or replacements to count.
     #[error(
-        "{parts} parts and up to {each} replacements of each are too many to count; plan for fewer parts or a shorter time"
+        "{parts} part(s) with more than {each} replacements of each are too many to count; plan for fewer parts or a shorter time"
     )]
     TooMany {
         /// Parts in use.

@@ -64,3 +64,20 @@ fn a_part_whose_failure_costs_less_than_its_replacement_is_left_to_fail() {
     assert_eq!((worth.replace_after, worth.replaced_at_once), (None, 0.0), "{worth:?}");
     assert!(worth.value() < 1e-4, "a look changes nothing: {worth:?}");
 }
+
+#[test]
+fn a_look_is_worth_what_quadrature_says_however_little_that_is() {
+    let law = Law::from_logs(&Gamma, [3.0_f64.ln(), 1.4_f64.ln()]).expect("valid");
+    let part = InUse { failure: 20.0, ..new_part(law) };
+    let costs = costs((200.0, 1500.0), STANDSTILLS[0]);
+    // scipy 1.17.1: costs after the look by 80 points of Gauss and the best age, over 1201 even steps of a normal number of the same
+    // probability as the wear. Middles of 64 even parts of the probability came to 0.430, 1.601, 8.055 and 36.724, none at once.
+    for (at, value, at_once) in
+        [(0.05, 0.385_850, 0.0), (0.2, 1.551_838, 0.0), (1.0, 7.999_190, 0.0), (4.0, 36.730_342, 0.001_383)]
+    {
+        let found = worth_of_a_look(&part, &costs, 38.0, at).expect("valid");
+        // A part in 1e4, and of those replaced at once half a step of the 1201.
+        assert!((found.value() / value - 1.0).abs() < 1e-4, "{at}: {} {value}", found.value());
+        assert!((found.replaced_at_once - at_once).abs() < 2e-5, "{at}: {found:?}");
+    }
+}

@@ -123,15 +123,10 @@ impl Ask {
             let alive = life.reliability(survived);
             // A law that leaves nobody alive has no weight; what it would answer does not matter.
             let Ok(rest) = Survived::new(life, survived) else { return Ok((value, 0.0)) };
-            let answer = match self {
-                // For a steady load the typical time is the mean; for a curved one it is near, at no cost of an integral.
-                Self::Mean if survived == 0.0 => life.typical(),
-                _ => match self.open(&rest) {
-                    Err(LifeError::NoneSurvives { .. }) => return Ok((value, 0.0)),
-                    answer => answer?,
-                },
-            };
-            Ok((answer, alive))
+            match self.open(&rest) {
+                Err(LifeError::NoneSurvives { .. }) => Ok((value, 0.0)),
+                answer => Ok((answer?, alive)),
+            }
         };
         mixture.credible(value, level, &one)
     }

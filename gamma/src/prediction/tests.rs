@@ -3,7 +3,7 @@ use crate::data::{Gauge, Observations, Reading as Datum};
 use crate::fit::{Model, estimate};
 use crate::fit_file::FitFile;
 use crate::inspection::Reading;
-use crate::process::{Gamma, PROCESSES, Process, Wiener};
+use crate::process::{Gamma, InverseGaussian, PROCESSES, Process, Wiener};
 use crate::random::Stream;
 
 /// GaAs lasers (Meeker & Escobar, 1998, table C.17), with a covariance of some percent.
@@ -96,6 +96,35 @@ fn a_reading_and_time_since_it_without_failure() {
         })
         .expect("valid");
     assert!(unweighed.lower < lower, "{unweighed:?} {lower}");
+}
+
+#[test]
+fn the_band_of_the_mean_after_readings_is_of_means_and_holds_it() {
+    let log = [(1.0, 2.5), (2.5, 4.1), (4.0, 8.7)].map(|(time, wear)| Reading { time, wear }).to_vec();
+    let near = |process: &'static dyn Process, parameters, exponent, left: f64| {
+        let estimate = Estimate::new(process, parameters, exponent).expect("valid");
+        let size = estimate.logs().len();
+        let logs = (0..size).map(|i| (0..size).map(|j| if i == j { 0.01 } else { 0.0 }).collect());
+        let prior = Prior::Fit(estimate.with_log_covariance(&logs.collect::<Vec<_>>()).expect("definite"));
+        let history = History::exact(process, log.clone()).expect("rising");
+        let state = OperatingState::new(8.7 + left).expect("positive");
+        let told = |survived| {
+            let questions = Questions { survived, ..Questions::default() };
+            Prediction::after(&history, &prior, &state, &questions).expect("explained").moments
+        };
+        [0.0, 1e-9].map(|survived| told(survived).expect("finite").1)
+    };
+    let cases =
+        [(&Gamma as &dyn Process, None, 0.01), (&InverseGaussian, None, 0.01), (&Gamma, Some(0.3), 10.0)];
+    for (process, exponent, left) in cases {
+        // A mean below its band, and with an exponent a band 6 % too low, were told: those of the exposure at failure.
+        let [band, again] = near(process, [3.0, 1.4], exponent, left);
+        assert!(band.lower < band.value && band.value < band.upper, "{process:?} {left}: {band:?}");
+        // A moment without failure changes by that moment, or by the few that it ended.
+        for (a, b) in [(band.lower, again.lower), (band.upper, again.upper)] {
+            assert!((a / b - 1.0).abs() < 1e-4, "{process:?} {left}: {band:?} {again:?}");
+        }
+    }
 }
 
 #[test]

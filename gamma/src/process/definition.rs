@@ -127,7 +127,7 @@ pub trait Process: Debug + Sync {
         None
     }
 
-    /// Mean exposure at which wear reaches `left`, but for terms that vanish exponentially with it.
+    /// Mean exposure at which wear reaches `left`, perhaps but for terms that vanish exponentially with it: searches start from it.
     fn mean_exposure(&self, logs: [f64; 2], left: f64) -> f64;
 }
 

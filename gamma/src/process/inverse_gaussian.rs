@@ -9,6 +9,8 @@
 
 mod units;
 
+use core::f64::consts::FRAC_1_SQRT_2;
+
 use rand::RngExt;
 use rand::distr::Open01;
 
@@ -16,7 +18,7 @@ use self::units::NormalSlowness;
 use super::definition::{Process, Slice, Term, scatters};
 use super::random_effect::RandomEffect;
 use crate::random::{StandardNormal, Stream};
-use crate::special::{LN_2_PI, inverse_gaussian, normal_mills, rising_root};
+use crate::special::{LN_2_PI, inverse_gaussian, normal_cdf, normal_density, normal_mills, rising_root};
 
 /// Parameters: the drift, mean wear per unit of exposure, and the spread, the law's shape lambda over a unit of exposure
 /// [unit of wear / unit of exposure²]: the larger, the less wear scatters.
@@ -139,9 +141,13 @@ impl Process for InverseGaussian {
         2.0 * (k - spread / drift * far) / (normal_mills(-near) + far)
     }
 
-    /// The integral of S: left / drift + drift / (2 spread), but for Phi(-k left / drift).
+    /// The integral of S: with z = k left / drift, left / drift Phi(z) + [phi(z) + (Phi(z) - 1/2) / z] / k. For large z that is
+    /// left / drift + drift / (2 spread).
     fn mean_exposure(&self, logs: [f64; 2], left: f64) -> f64 {
         let [drift, spread] = logs.map(libm::exp);
-        left / drift + 0.5 * drift / spread
+        // Where z is too small for a number, the quotient still has its limit.
+        let z = (libm::sqrt(spread * left) / drift).max(f64::MIN_POSITIVE);
+        let inner = 0.5 * libm::erf(z * FRAC_1_SQRT_2) / z;
+        left / drift * normal_cdf(z) + libm::sqrt(left / spread) * (normal_density(z) + inner)
     }
 }

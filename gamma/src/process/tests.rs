@@ -5,6 +5,7 @@ use rand::RngExt;
 use super::*;
 use crate::life::{Clock, FirstPassage, Law, LifeStatistics, Lifetime};
 use crate::random::Stream;
+use crate::special::normal_density;
 
 /// ln 2 and ln 0.8: laws of moderate scatter for all processes.
 const LOGS: [f64; 2] = [core::f64::consts::LN_2, -0.223_143_551_314_209_76];
@@ -141,6 +142,20 @@ fn the_mean_exposure_is_the_mean_of_the_passage() {
         let mean = process.mean_exposure(parameters.map(f64::ln), 10.0);
         assert!((moments.mean / mean - 1.0).abs() < 1e-8, "{process:?}: {} {mean}", moments.mean);
     }
+}
+
+#[test]
+fn the_mean_exposure_of_an_inverse_gaussian_process_is_exact_however_little_wear_is_left() {
+    // Below the last two left / drift + drift / (2 spread) is 60 and 5e8 times the mean.
+    for (parameters, left) in [([2.0, 3.0], 2.0), ([2.0, 3.0], 1e-2), ([2.0, 3.0], 1e-4), ([1e9, 1.0], 1.0)] {
+        let moments = life(&InverseGaussian, parameters, left).moments().expect("finite");
+        let mean = InverseGaussian.mean_exposure(parameters.map(f64::ln), left);
+        // The accuracy of the integrals.
+        assert!((moments.mean / mean - 1.0).abs() < 1e-8, "{parameters:?} {left}: {} {mean}", moments.mean);
+    }
+    // Beyond all numbers but for its limit, 2 phi(0) / k.
+    let mean = InverseGaussian.mean_exposure([690.0, -690.0], 1.0);
+    assert!((mean / (2.0 * normal_density(0.0) * 345.0_f64.exp()) - 1.0).abs() < 1e-12, "{mean}");
 }
 
 /// Variations of what differs between units: far from 0, and so large that a normal law has to be cut off.

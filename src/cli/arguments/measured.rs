@@ -10,7 +10,7 @@ use linkwear_gamma::process::{PROCESSES, Process};
 use super::super::calendar::Calendar;
 use super::super::options::Replace;
 use super::super::value::{
-    OtherJoint, covariate, from_zero, one_of, other_joint, output, part, positive, range, within_one,
+    OtherJoint, covariate, from_zero, limit, one_of, other_joint, output, part, positive, range, within_one,
 };
 
 #[derive(Debug, Args)]
@@ -21,10 +21,10 @@ pub struct PredictArguments {
     #[arg(long, value_name = "W", value_parser = positive, allow_negative_numbers = true)]
     pub threshold: f64,
     /// Wear now [default: 0].
-    #[arg(long, value_name = "W0", allow_negative_numbers = true)]
+    #[arg(long, value_name = "W0", value_parser = from_zero, allow_negative_numbers = true)]
     pub current: Option<f64>,
     /// Exposure until now, as the fit counts it before any exponent; needed with --current for a power law.
-    #[arg(long, value_name = "EXPOSURE", allow_negative_numbers = true)]
+    #[arg(long, value_name = "EXPOSURE", value_parser = from_zero, allow_negative_numbers = true)]
     pub at: Option<f64>,
     /// A unit of the fit's data, by its name there: what has been read of it says how it differs; its last reading is the present,
     /// or --current with --at. Without, a unit of which nothing is known.
@@ -204,7 +204,7 @@ pub struct FitArguments {
     pub reset: Option<String>,
     /// Units are among the data only because their wear was below this at their first reading: a number, or a column. What that
     /// selects is taken out, of units seen from new (--from-zero) and of rates that differ (--random-effects).
-    #[arg(long, value_name = "D|COL")]
+    #[arg(long, value_name = "D|COL", value_parser = limit, allow_negative_numbers = true)]
     pub entered_below: Option<String>,
     /// Accept data of one unit, which cannot tell how units differ.
     #[arg(long)]
