@@ -276,3 +276,35 @@ fn a_bush_turns_about_a_pin_that_a_guide_holds() {
         assert!((found[0] - expected).abs() < 3e-4 * expected, "{joint}: {found:?}, not {expected}");
     }
 }
+
+/// Directions across an axis that is drawn askew are at right angles but for rounding. What is left of their product times a mass is zero or
+/// is not by the digits of that mass.
+#[test]
+fn equations_of_a_loose_joint_that_is_drawn_askew_have_one_form_whatever_the_mass() {
+    for axis in ["1, 2, 3", "0.36, 0.48, 0.8", "0.2, 0.7, 0.1"] {
+        let operations = |mass: f64| {
+            let rotor = compiled(&format!(
+                "gravity = [0, \"-9.81 m/s^2\", 0]
+[points]
+O = [0, 0, 0]
+Q = [\"60 mm\", \"20 mm\", \"10 mm\"]
+[bodies]
+rotor = {{ mass = \"{mass} kg\", centre = \"Q\", inertia = [\"5e-3 kg m^2\", \"5e-3 kg m^2\", \"9e-3 kg m^2\"] }}
+[joints]
+R1 = {{ revolute = [\"ground\", \"rotor\"], at = \"O\", axis = [{axis}], drive = \"12 rad/s*t\" }}
+[clearance.R1]
+radial = \"50 um\"
+journal_radius = \"10 mm\"
+length = \"20 mm\"
+modulus = \"50 GPa\"
+"
+            ));
+            rotor.operations().iter().map(|count| count.operations.total).collect::<Vec<_>>()
+        };
+        let first = operations(2.9);
+        for step in 1..12 {
+            let mass = 2.9 + 0.037 * f64::from(step);
+            assert_eq!(operations(mass), first, "{mass} kg about [{axis}]");
+        }
+    }
+}

@@ -78,9 +78,10 @@ pub enum SensitivityError {
         /// Change of the last one.
         change: f64,
     },
-    /// Where bodies come apart, turns differ from each other.
+    /// Where bodies come apart, turns differ from each other; where a body swings freely, for as long as that takes to die away.
     #[error(
-        "the motion has no period at a wear of {wear:.3e} m: its turns differ by {change:.1e} of what they wear"
+        "the motion has no period, or swings for long before it has, at a wear of {wear:.3e} m: its turns differ by {change:.1e} of \
+         what they wear"
     )]
     NoPeriod {
         /// Wear of the joint that leads [m].

@@ -95,6 +95,17 @@ impl Case<'_> {
         self.driven_links().map(|(joint, link)| (joint, link.first_speed)).collect()
     }
 
+    /// Speed and coordinate of every offset and tilt that clearance adds.
+    pub fn play(&self) -> impl Iterator<Item = (usize, usize)> {
+        let joints = self.mechanism.joints.iter().enumerate();
+        let offsets = joints.flat_map(|(at, joint)| joint.model.loose().map(move |offset| (at, offset)));
+        offsets.filter_map(|(at, offset)| {
+            let link = self.linkage.link_of_coordinate(JointId::new(at), offset)?;
+            let link = &self.linkage.links[link];
+            Some((link.first_speed, link.first_coordinate))
+        })
+    }
+
     /// Scalar coordinates whose start value the file demands: their joints and speeds.
     pub fn demanded(&self) -> Vec<(JointId, usize)> {
         let demanded = self.mechanism.starts.iter().filter(|start| start.held && start.position.is_some());

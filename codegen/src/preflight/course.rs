@@ -103,7 +103,7 @@ impl<'a> Course<'a> {
         });
         let drivers: Vec<_> = drivers.collect();
         let walker = case.walker();
-        let play: Vec<_> = play(case).collect();
+        let play: Vec<_> = case.play().collect();
         let held = |speed: &usize| {
             play.iter().any(|(offset, _)| offset == speed)
                 || drivers.iter().any(|driver| driver.speed == *speed)
@@ -170,7 +170,7 @@ impl<'a> Course<'a> {
                 }
             };
             let tried = loop {
-                let next = self.at(last, last.t + part * whole);
+                let next = self.over(last, last.t, part * whole);
                 if next.is_some() || part <= SHORTEST {
                     break next.map(|next| (next, part));
                 }
@@ -179,9 +179,10 @@ impl<'a> Course<'a> {
             // On the fold itself loops do not tell how the motion goes on: the position before it does.
             let before = self.waypoints.len().checked_sub(2).map(|before| &self.waypoints[before]);
             let leap = || {
-                std::iter::once(last).chain(before).find_map(|from| {
-                    LEAPS.iter().find_map(|leap| Some((self.at(from, last.t + leap * whole)?, *leap)))
-                })
+                let over = |from: &Waypoint, leap: f64| Some((self.over(from, last.t, leap * whole)?, leap));
+                std::iter::once(last)
+                    .chain(before)
+                    .find_map(|from| LEAPS.iter().find_map(|leap| over(from, *leap)))
             };
             let Some((next, gained)) = tried.or_else(leap) else {
                 self.ends = true;
@@ -273,6 +274,13 @@ impl<'a> Course<'a> {
         Some(Waypoint { t, q: self.close(q)? })
     }
 
+    /// The position a step of time after another one, if loops close halfway, too: drivers that turn round in between may come back from
+    /// where loops cannot follow. That is seen from beyond, as a fold between both hides it from before.
+    fn over(&self, from: &Waypoint, t: f64, step: f64) -> Option<Waypoint> {
+        let next = self.at(from, t + step)?;
+        self.at(&next, t + 0.5 * step).map(|_| next)
+    }
+
     /// The same to rounding.
     pub fn exactly_at(&self, from: &Waypoint, t: f64) -> Option<Waypoint> {
         let mut waypoint = self.at(from, t)?;
@@ -335,15 +343,4 @@ impl<'a> Course<'a> {
         }
         None
     }
-}
-
-/// Speed and coordinate of every offset and tilt that clearance adds.
-fn play<'a>(case: &'a Case<'_>) -> impl Iterator<Item = (usize, usize)> + 'a {
-    let joints = case.mechanism.joints.iter().enumerate();
-    let offsets = joints.flat_map(|(at, joint)| joint.model.loose().map(move |offset| (at, offset)));
-    offsets.filter_map(|(at, offset)| {
-        let link = case.linkage.link_of_coordinate(JointId::new(at), offset)?;
-        let link = &case.linkage.links[link];
-        Some((link.first_speed, link.first_coordinate))
-    })
 }
