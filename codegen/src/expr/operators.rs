@@ -122,7 +122,8 @@ impl Add for Expr<'_> {
         }
         if let (Some(x), Some(y)) = (self.as_number(), other.as_number()) {
             let sum = x + y;
-            return self.scope().number(if sum.abs() > CANCELLED * x.abs().max(y.abs()) { sum } else { 0.0 });
+            // What is infinite or no number stays so.
+            return self.scope().number(if sum.abs() < CANCELLED * x.abs().max(y.abs()) { 0.0 } else { sum });
         }
         let ((x, x_negated), (y, y_negated)) = (self.strip_sign(), other.strip_sign());
         match (x_negated, y_negated) {
@@ -238,6 +239,7 @@ mod tests {
         assert_ne!(0.6 * mass * 0.8, mass * 0.48);
         assert!((g.number(0.6 * mass * 0.8) - g.number(mass * 0.48)).is_zero());
         assert!(!(g.number(1.0 + 1e-12) - 1.0).is_zero());
+        assert_eq!((g.number(f64::INFINITY) + 1.0).as_number(), Some(f64::INFINITY));
     }
 
     #[test]
