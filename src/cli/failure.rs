@@ -102,6 +102,10 @@ impl Failure {
                 let help = "save it as UTF-8 text: editors and spreadsheets ask for the encoding";
                 return Self::placed("C0002", (Some(file), Some(*line)), "", (message, help));
             }
+            if error.kind() == io::ErrorKind::FileTooLarge {
+                let (what, cure) = what_and_cure(&message);
+                return Self::new("C0002", Some(file), what, cure);
+            }
             let is_mechanism = file.extension().is_none_or(|extension| extension == "toml");
             let help = if file == Path::new("-") {
                 "what a pipe brings is read as `/dev/stdin`"
