@@ -179,10 +179,12 @@ mod tests {
     use super::*;
     use crate::spec::parse;
 
-    /// A text, where each of its faults is, and a word of what is told with the cure.
+    /// Line and column of a fault, and words of what is told with the cure.
+    type Fault = ((usize, usize), &'static str);
+
     #[test]
     fn each_fault_has_the_cure_of_its_cause() {
-        let cases: &[(&str, &[((usize, usize), &str)])] = &[
+        let cases: &[(&str, &[Fault])] = &[
             ("a = 1 m", &[((1, 5), "stand in quotes")]),
             ("a = [1 m]", &[((1, 6), "stand in quotes")]),
             ("a = \"x\ry\"", &[((1, 7), "LF")]),
