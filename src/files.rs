@@ -146,7 +146,7 @@ fn write_through(
 pub fn check_target(path: &Path) -> Result<bool, WriteError> {
     let check = || match Target::of(path)? {
         Target::Stdout | Target::Stream => Ok(true),
-        Target::Regular(path, _) => fs::metadata(folder_of(&path)).map(|_| false),
+        Target::Regular(path, _) => beside(&path).map(|_| false),
     };
     check().map_err(WriteError::of(path))
 }
@@ -196,14 +196,11 @@ pub(crate) fn folder_of(path: &Path) -> &Path {
 }
 
 /// A file of an unpredictable name in the same folder, so that the rename stays on one file system; it goes with the
-/// value.
+/// value. Errors do not name it: nobody asked for it.
 fn beside(path: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".linkwear-").suffix(".tmp");
-    // What the umask leaves, as for any new file; temporary files are private otherwise.
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    builder.tempfile_in(folder_of(path))
+    // With the permissions that the umask leaves, as any new file.
+    let create = |path: &Path| OpenOptions::new().read(true).write(true).create_new(true).open(path);
+    tempfile::Builder::new().prefix(".linkwear-").suffix(".tmp").make_in(folder_of(path), create)
 }
 
 /// Permissions, and owner as far as the system allows.
@@ -275,5 +272,16 @@ mod tests {
         assert_eq!(fs::read_dir(&folder).expect("folder").count(), 1);
         write_whole(&path, |out| out.write_all(b"new")).expect("a file");
         assert_eq!(fs::read_to_string(&path).expect("new file"), "new");
+    }
+
+    /// A folder in which not even root makes a file. It is told before the work, and by the name that was given.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_folder_that_takes_no_file_is_told_before_the_work_and_by_the_name_that_was_given() {
+        let path = Path::new("/proc/self/rows.csv");
+        for error in [check_target(path).err(), write_whole(path, |_| Ok(())).err()] {
+            let told = error.expect("no file there").to_string();
+            assert!(told.contains("`/proc/self/rows.csv`") && !told.contains(".tmp"), "{told}");
+        }
     }
 }

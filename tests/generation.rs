@@ -94,6 +94,15 @@ fn equations_of_the_pendulum_in_latex() {
     insta::assert_snapshot!(compiled("pendulum", &[], None).equations_text(&only, TextFormat::Latex));
 }
 
+/// What LaTeX sets without a package: nothing beyond Latin-1.
+#[test]
+fn equations_in_latex_have_letters_that_latex_sets() {
+    let text = compiled("slider_crank", &[], None).equations_text(&[], TextFormat::Latex);
+    let strange: String = text.chars().filter(|c| u32::from(*c) > 0xff).collect();
+    assert_eq!(strange, "");
+    assert!(text.contains("M \\.{v} + h = Q\\_drive + phi\\_q\\textsuperscript{T} lambda"), "{text}");
+}
+
 #[test]
 fn costs_of_the_rssr() {
     insta::assert_snapshot!(costs(&compiled("rssr_rigid", &[], None)));

@@ -19,7 +19,7 @@ use std::process::ExitCode;
 use clap::{Parser, ValueEnum};
 use linkwear::files::{WriteError, claim_folder, print, write_whole};
 use linkwear::progress::watched;
-use linkwear_case_study::{Options, Picture, Study, html, markdown, pictures, run, summary};
+use linkwear_case_study::{Options, Picture, Study, StudyError, html, markdown, pictures, run, summary};
 use serde_json::{Value, json};
 
 /// Recompute the figures and tables of the paper's case study, beside the paper's own numbers.
@@ -63,8 +63,9 @@ struct Failure {
 }
 
 impl Failure {
-    fn study(error: impl ToString) -> Self {
-        Self { code: "C0012", file: None, message: error.to_string(), help: "nothing was written" }
+    fn study(error: StudyError) -> Self {
+        let code = if matches!(error, StudyError::Interrupted) { "C0009" } else { "C0012" };
+        Self { code, file: None, message: error.to_string(), help: "nothing was written" }
     }
 
     fn report(&self, format: Format) {
@@ -146,4 +147,16 @@ fn write(out: &Path, study: &Study, pictures: Vec<Picture>, results: &Value) -> 
         write_whole(&out.join(name), |file| file.write_all(bytes))?;
     }
     Ok(files.into_iter().map(|(name, _)| name).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_study_that_is_stopped_is_told_as_all_that_is() {
+        assert_eq!(Failure::study(StudyError::Interrupted).code, "C0009");
+        let failed = Failure::study(StudyError::Missing { kind: "joint", name: "R1".into() });
+        assert_eq!(failed.code, "C0012");
+    }
 }

@@ -87,9 +87,13 @@ pub fn read(
     let tree_root = tree(&links, &joints, root)?;
     let robot = Robot::new(name, links, joints, tree_root);
     if let Some(density) = density {
-        left_out.push(format!(
-            "masses of {shaped} link(s) without <inertial>: of their shapes to touch, else to look at, at {density} kg/m^3"
-        ));
+        left_out.push(if shaped == 0 {
+            "--density: not used, no mass is made of a shape".to_owned()
+        } else {
+            format!(
+                "masses of {shaped} link(s) without <inertial>: of their shapes to touch, else to look at, at {density} kg/m^3"
+            )
+        });
     }
     let mut count: BTreeMap<&str, usize> = BTreeMap::new();
     for element in all {

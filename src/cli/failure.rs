@@ -102,8 +102,14 @@ impl Failure {
                 let help = "save it as UTF-8 text: editors and spreadsheets ask for the encoding";
                 return Self::placed("C0002", (Some(file), Some(*line)), "", (message, help));
             }
+            if error.kind() == io::ErrorKind::FileTooLarge {
+                let (what, cure) = what_and_cure(&message);
+                return Self::new("C0002", Some(file), what, cure);
+            }
             let is_mechanism = file.extension().is_none_or(|extension| extension == "toml");
-            let help = if is_mechanism {
+            let help = if file == Path::new("-") {
+                "what a pipe brings is read as `/dev/stdin`"
+            } else if is_mechanism {
                 "check the path; shipped mechanisms are in `mechanisms/`"
             } else {
                 "check the path"
@@ -206,8 +212,7 @@ impl Failure {
                 return Self::new("C0004", Some(folder), &error, help);
             }
             JournalError::Write(WriteError::System { file, .. }) => {
-                let help =
-                    "what was finished before is kept; make room or choose another folder, then --resume";
+                let help = "make room, or give a folder that exists and can be written; --resume goes on with what was finished before";
                 return Self::new("C0003", Some(file), &error, help);
             }
             JournalError::InUse(file) => (file, "wait for its end, or choose another --out"),

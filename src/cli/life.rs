@@ -130,6 +130,13 @@ pub fn lives<'m>(
     Ok((study, warnings))
 }
 
+/// Whether there is the mission that is named, also where no life is lived.
+pub fn check_mission(file: &Path, study: &LifeStudy<'_>) -> Result<(), Failure> {
+    let is_named = matches!(study.mission, MissionChoice::Named(_));
+    let chosen = if is_named { study.chosen_mission().map(drop) } else { Ok(()) };
+    chosen.map_err(|cause| failed(file, cause.into(), None))
+}
+
 /// The lives of all shards as one.
 pub fn merged(arguments: &MergeArguments) -> Result<Answer, Failure> {
     let (facts, life) = merge(&arguments.shards).map_err(Failure::merge)?;

@@ -83,15 +83,28 @@ pub fn report_page(
     plain.warnings.clone_from(&seen.compiled.warnings);
     let mechanism = Mechanism::of(&plain, &options(input, equations.rigid), equations.backend)?;
     let wears = mechanism.description.contacts.iter().any(|contact| contact.wear.is_some());
-    let life = if wears { lived(arguments, &mechanism, ear)? } else { None };
+    let study = asked(arguments, &mechanism)?;
+    let life = if wears { lived(arguments, study, ear)? } else { None };
     Ok((page(&seen, life.as_ref(), true), wears))
 }
 
-/// What is told of the life; nothing where revolutions cannot be counted, which leaves the motion and the loads.
-fn lived(arguments: &ReportArguments, mechanism: &Mechanism, ear: Ear<'_>) -> Result<Option<Value>, Failure> {
+/// The life that is asked for, and what is doubtful about its fits; names that nothing has are told where none is lived, too.
+fn asked<'m>(
+    arguments: &ReportArguments,
+    mechanism: &'m Mechanism,
+) -> Result<(LifeStudy<'m>, Vec<String>), Failure> {
     let ReportArguments { input, lives, revolutions, threads, .. } = arguments;
     let (study, warnings) = life::lives(lives, (revolutions.step, revolutions.tol), mechanism)?;
-    let study = LifeStudy { threads: *threads, ..study };
+    life::check_mission(&input.file, &study)?;
+    Ok((LifeStudy { threads: *threads, ..study }, warnings))
+}
+
+/// What is told of the life; nothing where revolutions cannot be counted, which leaves the motion and the loads.
+fn lived(
+    arguments: &ReportArguments,
+    (study, warnings): (LifeStudy<'_>, Vec<String>),
+    ear: Ear<'_>,
+) -> Result<Option<Value>, Failure> {
     let run = || {
         if let Some(cost) = study.cost(ear.watch)?
             && ear.remarks
@@ -107,7 +120,7 @@ fn lived(arguments: &ReportArguments, mechanism: &Mechanism, ear: Ear<'_>) -> Re
             }
             return Ok(None);
         }
-        lived => lived.map_err(|error| life::failed(&input.file, error, None))?,
+        lived => lived.map_err(|error| life::failed(&arguments.input.file, error, None))?,
     };
     result.warnings.extend(warnings);
     Ok(Some(life::output::answer(&LifeFacts::new(&study, result.coupling), &result).json))

@@ -105,6 +105,7 @@ pub fn asked<T>(
     let simulation = Simulation::new(&arguments.input.file, &arguments.motion, mechanism)?;
     let steps = (arguments.motion.step, arguments.motion.tol);
     let (life, warnings) = life::lives(&arguments.lives, steps, mechanism)?;
+    life::check_mission(&arguments.input.file, &life)?;
     warnings.iter().for_each(|warning| remark(&format_args!("warning: {warning}")));
     let study = Study {
         cases: &cases,

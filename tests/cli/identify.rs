@@ -96,12 +96,15 @@ fn wrong_questions_are_answered_with_what_to_write() {
         assert!(!error.to_string().contains("--vary"), "{file} {free}: {error}");
     }
     let file = folder.path("good.csv");
+    let angles = folder.write("angles.csv", "t [s],R4.q [rad]\n0,1\n0.1,1.1\n0.2,1.2\n");
     for (words, code) in [
         (&["--free", DAMPER, "--free", DAMPER, "--measured", &file][..], "C0001"),
         (&["--free", DAMPER, "--set", "c_rocker=0.1 N m s/rad", "--measured", &file], "C0001"),
         (&["--free", DAMPER, "--measured", &file, "--noise", "R1.drive=0.1 N"], "C0001"),
         (&["--free", DAMPER, "--measured", &file, "--noise", "R4.q=0.1"], "C0001"),
         (&["--free", DAMPER, "--measured", &file, "--of", "R4.q"], "C0011"),
+        (&["--free", DAMPER, "--measured", &angles, "--noise", "R4.q=0.1"], "C0001"),
+        (&["--free", DAMPER, "--measured", &angles, "--noise", "R4.q=0.1 mm"], "C0001"),
         (&["--measured", &file], "C0001"),
         (&["--free", DAMPER], "C0001"),
         (&["--free", DAMPER, "--inspections", &format!("R4={file}"), "--time", "t", "--wear", "w"], "C0006"),

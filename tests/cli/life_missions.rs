@@ -43,6 +43,32 @@ fn lives_of_a_mission_are_the_same_in_shards_and_resumed() {
     assert!(answer.err.contains("mission"), "{}", answer.err);
 }
 
+/// No life is lived there, and what the names stand for changes nothing: a slip of the pen would go unseen.
+#[test]
+fn missions_and_fits_that_do_not_exist_are_told_where_no_life_is_lived_too() {
+    let folder = Folder::new("life-missions-unlived");
+    let page = folder.path("page.html");
+    let still = "mechanisms/rssr_rigid.toml";
+    let report = |more: [&str; 2]| linkwear(&[&["report", still, "-o", &page][..], &more].concat());
+    let study = |more: [&str; 2]| {
+        let words = ["study", still, "--vary", "speed=1 Hz,2 Hz", "--of", "peak.R1.F"];
+        linkwear(&[&words[..], &more].concat())
+    };
+    for (more, cause) in
+        [(["--mission", "shift"], "shift"), (["--fit", "none.json"], "no joint of this mechanism wears")]
+    {
+        for answer in [report(more), study(more)] {
+            assert_eq!(answer.code, 2, "{more:?}: {}", answer.err);
+            assert!(answer.err.contains(cause), "{}", answer.err);
+        }
+    }
+    assert!(!std::fs::exists(&page).unwrap_or(true));
+    let motions =
+        ["study", DUTY, "--vary", "drag=1 N m s/rad,2 N m s/rad", "--of", "peak.R1.F", "--mission", "night"];
+    let answer = linkwear(&motions);
+    assert!(answer.code == 1 && answer.err.contains("C0006"), "{}", answer.err);
+}
+
 #[test]
 fn wrong_choices_are_answered() {
     for (words, cause) in [

@@ -71,6 +71,8 @@ fn what_is_no_finished_life_is_refused_with_what_to_do() {
         assert!(!fs::exists(&page).unwrap_or(true));
     };
     refused(&["--seed", "8"], "lived already: --seed", "leave it out");
+    refused(&["--mission", "shift"], "lived already: --mission", "leave it out");
+    refused(&["--no-mission"], "lived already: --no-mission", "leave it out");
     let mechanism = format!("{out}/mechanism/mechanism.toml");
     let text = fs::read_to_string(&mechanism).expect("the mechanism");
     fs::write(&mechanism, text.replacen("2 Hz", "4 Hz", 1) + "\n").expect("a file");

@@ -2,11 +2,11 @@
 //! what cannot be studied is answered with what to write.
 
 use std::fs;
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::path::Path;
 use std::process::{Child, Command};
 use std::thread::sleep;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use crate::command::{Answer, Folder, linkwear, start};
 use linkwear::cli::ask;
@@ -246,36 +246,33 @@ const WORK: [&str; 8] = [
 fn threads_shards_and_interruptions_change_no_byte() {
     let folder = Folder::new("study-same");
     let run = |out: &str, more: &[&str]| study(&[&LIFE, &WORK, &["--out", &folder.path(out)], more, &JSON]);
-    let begin = Instant::now();
     let whole = run("whole.csv", &["--threads", "1"]);
-    let took = begin.elapsed();
     assert_eq!(whole.code, 0, "{}", whole.err);
     let bytes = |out: &str| fs::read(folder.path(out)).expect("rows");
     let expected = bytes("whole.csv");
     let again = run("two.csv", &["--threads", "2"]);
     assert!(again.out == whole.out && bytes("two.csv") == expected);
 
-    // Killed at two moments, and stopped by a signal.
-    for (at, part) in [0.3, 0.7].into_iter().enumerate() {
+    // Killed after its first row and before its last, and stopped by a signal.
+    for (at, rows) in [1..4, 5..8].into_iter().enumerate() {
         let out = format!("killed{at}.csv");
-        let path = folder.path(&out);
-        let mut child = start(&[&["study"][..], &LIFE, &WORK, &["--out", &path, "--threads", "1"]].concat());
-        sleep(took.mul_f64(part));
-        let _ = child.kill();
+        let mut child = held_under_way(&folder.path(&out), rows);
+        child.kill().expect("it is held");
         child.wait().expect("it is dead");
-        if fs::exists(format!("{path}.journal")).expect("a folder") {
-            let refused = run(&out, &[]);
-            assert_eq!(
-                (refused.code, &*error(&refused).0),
-                (1, "C0004"),
-                "what is unfinished is not overwritten"
-            );
-        }
+        let refused = run(&out, &[]);
+        assert_eq!(
+            (refused.code, &*error(&refused).0),
+            (1, "C0004"),
+            "what is unfinished is not overwritten"
+        );
         let rest = run(&out, &["--resume"]);
-        assert!(rest.out == whole.out && bytes(&out) == expected, "killed at {part}: {}", rest.err);
+        assert!(rest.out == whole.out && bytes(&out) == expected, "killed at {at}: {}", rest.err);
     }
     let path = folder.path("stopped.csv");
-    let stopped = stopped_under_way(&path);
+    let child = held_under_way(&path, 1..4);
+    signal(&child, "-INT");
+    signal(&child, "-CONT");
+    let stopped = Answer::of(child.wait_with_output().expect("it ends"));
     let (code, message, help) = error(&stopped);
     assert_eq!((stopped.code, &*code), (1, "C0009"));
     assert!(message.contains("of 8 points") && help.contains("--resume"), "{message}; {help}");
@@ -290,27 +287,26 @@ fn threads_shards_and_interruptions_change_no_byte() {
     assert!(bytes("stopped.csv.journal") == kept, "a row was run again");
 }
 
-/// What a study says that a signal ends under way. However slow the machine is: the study is held as soon as it has kept a row, and told
-/// to end where more than half of its rows are still to come; else it begins anew.
-fn stopped_under_way(out: &str) -> Answer {
+/// A study that is held when it has kept so many of its eight rows, however slow or fast the machine is: one that got further before
+/// it was looked at begins anew.
+fn held_under_way(out: &str, rows: Range<usize>) -> Child {
     let journal = format!("{out}.journal");
     // The line of the study, and the rows.
     let kept = || fs::read_to_string(&journal).map_or(0, |found| found.lines().count().saturating_sub(1));
     for _ in 0..50 {
-        let mut child = start(&[&["study"][..], &LIFE, &WORK, &["--out", out], &JSON].concat());
+        let mut child =
+            start(&[&["study"][..], &LIFE, &WORK, &["--out", out, "--threads", "1"], &JSON].concat());
         loop {
             let has_ended = child.try_wait().expect("a child").is_some();
-            let rows = kept();
-            assert!(rows > 0 || !has_ended, "it ended without a row");
+            let now = kept();
+            assert!(now > 0 || !has_ended, "it ended without a row");
             if has_ended {
                 break;
             }
-            if rows > 0 {
+            if now >= rows.start {
                 signal(&child, "-STOP");
-                if kept() < 4 {
-                    signal(&child, "-INT");
-                    signal(&child, "-CONT");
-                    return Answer::of(child.wait_with_output().expect("it ends"));
+                if rows.contains(&kept()) {
+                    return child;
                 }
                 child.kill().expect("it is held, or has ended");
                 child.wait().expect("it is dead");
@@ -322,7 +318,7 @@ fn stopped_under_way(out: &str) -> Answer {
             let _ = fs::remove_file(file);
         }
     }
-    panic!("fifty studies kept half of their rows before anyone looked");
+    panic!("fifty studies kept {} rows before anyone looked", rows.end);
 }
 
 fn signal(child: &Child, name: &str) {

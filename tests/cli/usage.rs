@@ -271,3 +271,15 @@ fn what_is_no_number_or_none_at_all_is_told_by_its_name() {
     let nothing = linkwear(&arguments);
     assert!(nothing.code == 1 && nothing.err.contains("there are no readings"), "{}", nothing.err);
 }
+
+/// The cure of what cannot be read is that of its cause, not a path that is right.
+#[test]
+fn what_cannot_be_read_has_the_cure_of_its_cause() {
+    let folder = crate::command::Folder::new("usage-unread");
+    let large = folder.write("large.toml", &"# a comment\n".repeat(400_000));
+    for (file, cure) in [(&*large, "[repeat]"), ("-", "/dev/stdin"), ("none.toml", "check the path")] {
+        let error = linkwear(&["check", file, "--format", "json"]).errors()[0].clone();
+        assert_eq!(error["code"], "C0002", "{error}");
+        assert!(error["help"].as_str().is_some_and(|help| help.contains(cure)), "{error}");
+    }
+}

@@ -43,21 +43,22 @@ fn check(root: &Value, schema: &Value, value: &Value, at: &str, found: &mut Vec<
                     }
                 }
             }
-            ("pattern", Value::String(text)) => {
-                // The one that there is: a quantity in a mechanism file has a unit, which has a letter, or is zero.
-                assert_eq!(told, "[A-Za-zµ%{]|^[ 0.+-]*$", "{at}: this pattern is not known here");
-                let is_with_unit =
-                    text.contains(|letter: char| letter.is_ascii_alphabetic() || "µ%{".contains(letter));
-                if !is_with_unit && text.contains(|letter| !" 0.+-".contains(letter)) {
-                    fault(format!("`{text}` has no unit"));
-                }
+            ("minProperties", Value::Object(fields))
+                if (fields.len() as u64) < told.as_u64().expect("a count") =>
+            {
+                fault("too few keys".into())
             }
-            ("pattern" | "const" | "enum" | "minimum" | "minItems" | "maxItems" | "required", _) => {}
-            ("title" | "description" | "format" | "default" | "$schema" | "$defs", _) => {}
+            ("pattern", Value::String(text)) if !fits(told.as_str().expect("a pattern"), text) => {
+                fault(format!("`{text}` does not fit {told}"))
+            }
             (
-                "$ref" | "anyOf" | "oneOf" | "properties" | "additionalProperties" | "items" | "prefixItems",
+                "pattern" | "const" | "enum" | "minimum" | "minItems" | "maxItems" | "minProperties"
+                | "required",
                 _,
             ) => {}
+            ("title" | "description" | "format" | "default" | "$schema" | "$defs", _) => {}
+            ("$ref" | "anyOf" | "oneOf" | "allOf" | "not" | "if" | "then" | "else", _) => {}
+            ("properties" | "additionalProperties" | "propertyNames" | "items" | "prefixItems", _) => {}
             (other, _) => panic!("{at}: the keyword `{other}` is not known here"),
         }
     }
@@ -79,8 +80,24 @@ fn check(root: &Value, schema: &Value, value: &Value, at: &str, found: &mut Vec<
             found.push(format!("{at}: several of the variants"));
         }
     }
+    let is_right = |schema: &Value| {
+        let mut own = Vec::new();
+        check(root, schema, value, at, &mut own);
+        own.is_empty()
+    };
+    if schema.get("not").is_some_and(is_right) {
+        found.push(format!("{at}: what must not be"));
+    }
+    let branch = schema.get("if").and_then(|of| schema.get(if is_right(of) { "then" } else { "else" }));
+    let all = schema.get("allOf").and_then(Value::as_array);
+    for own in branch.into_iter().chain(all.into_iter().flatten()) {
+        check(root, own, value, at, found);
+    }
     if let Value::Object(object) = value {
         for (key, value) in object {
+            if let Some(names) = schema.get("propertyNames") {
+                check(root, names, &Value::from(key.as_str()), at, found);
+            }
             let at = format!("{at}.{key}");
             match (
                 schema.get("properties").and_then(|known| known.get(key)),
@@ -101,6 +118,19 @@ fn check(root: &Value, schema: &Value, value: &Value, at: &str, found: &mut Vec<
                 check(root, own, value, &at, found);
             }
         }
+    }
+}
+
+/// The patterns that there are: a quantity in a mechanism file is not blank; it has a unit, which has a letter, or is zero.
+fn fits(pattern: &str, text: &str) -> bool {
+    match pattern {
+        "[^ ]" => text.contains(|letter| letter != ' '),
+        "[A-Za-zµ%{]|^[ .+-]*0[ 0.+-]*$" => {
+            let is_with_unit =
+                text.contains(|letter: char| letter.is_ascii_alphabetic() || "µ%{".contains(letter));
+            is_with_unit || text.contains('0') && !text.contains(|letter| !" 0.+-".contains(letter))
+        }
+        other => panic!("the pattern `{other}` is not known here"),
     }
 }
 
@@ -140,5 +170,21 @@ fn what_is_wrong_is_found() {
         r#"{"a": 1, "c": 1.5}"#,
     ] {
         assert_eq!(count(bad), 1, "{bad}");
+    }
+}
+
+#[test]
+fn what_depends_on_other_keys_is_found() {
+    let schema: Value = serde_json::from_str(
+        r#"{"if": {"required": ["a"]}, "then": {"required": ["b"]}, "else": {"minProperties": 1},
+            "allOf": [{"not": {"required": ["c", "d"]}}], "not": {"propertyNames": {"enum": ["e"]}, "minProperties": 1}}"#,
+    )
+    .expect("JSON");
+    let fits = |text: &str| faults(&schema, &serde_json::from_str(text).expect("JSON")).is_empty();
+    for good in [r#"{"a": 1, "b": 1}"#, r#"{"b": 1}"#, r#"{"c": 1, "e": 1}"#] {
+        assert!(fits(good), "{good}");
+    }
+    for bad in ["{}", r#"{"a": 1}"#, r#"{"c": 1, "d": 1}"#, r#"{"e": 1}"#] {
+        assert!(!fits(bad), "{bad}");
     }
 }

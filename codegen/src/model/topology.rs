@@ -241,7 +241,7 @@ fn unreached(mechanism: &Mechanism, depths: &[Option<usize>]) -> Vec<Diagnostic>
             .help(if joint.surface.is_some() {
                 "give the body a joint that carries it besides, at least a `free` one to the ground"
             } else {
-                "a joint outside a loop cannot be cut: take `cut = true` away, or give its point and axis once for both bodies"
+                "a joint outside a loop cannot be cut: take `cut = true` away, or give its point and axis once for both bodies; or the joint is missing that carries them"
             }),
     ]
 }

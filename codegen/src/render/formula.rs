@@ -140,7 +140,7 @@ impl Formula<'_> {
         }
     }
 
-    /// User text, escaped for the notation.
+    /// User text, escaped for the notation. Letters of our own texts that LaTeX does not set by itself are written as it does.
     pub fn plain(&self, text: &str) -> String {
         let special = match self.format {
             TextFormat::Text => return text.to_owned(),
@@ -148,8 +148,14 @@ impl Formula<'_> {
             TextFormat::Latex => "\\{}_^#$%&~",
         };
         let mut escaped = String::new();
-        for c in text.chars() {
+        let mut letters = text.chars().peekable();
+        while let Some(c) = letters.next() {
+            if self.format == TextFormat::Latex && letters.next_if_eq(&'\u{307}').is_some() {
+                escaped.extend(['\\', '.', '{', c, '}']);
+                continue;
+            }
             match (self.format, c) {
+                (TextFormat::Latex, 'ᵀ') => escaped.push_str("\\textsuperscript{T}"),
                 (TextFormat::Latex, '\\') => escaped.push_str("\\textbackslash{}"),
                 (TextFormat::Latex, '^') => escaped.push_str("\\textasciicircum{}"),
                 (TextFormat::Latex, '~') => escaped.push_str("\\textasciitilde{}"),

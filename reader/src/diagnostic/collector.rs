@@ -1,5 +1,6 @@
 //! Everything there is to say about one file, as text and as data.
 
+use std::collections::HashSet;
 use std::fmt;
 
 use annotate_snippets::Renderer;
@@ -59,9 +60,14 @@ impl Diagnostics {
         self.list.push(diagnostic);
     }
 
-    /// Says which file the spans belong to, and sorts by place.
+    /// Says which file the spans belong to, and sorts by place. What is said twice of one place, as of the edge of a
+    /// square, which is both of its edges, is said once.
     pub fn located(mut self, source: &SourceFile) -> Self {
         self.source = Some(source.clone());
+        let mut said = HashSet::new();
+        self.list.retain(|diagnostic| {
+            said.insert((diagnostic.code, diagnostic.span(), diagnostic.message.clone()))
+        });
         self.list.sort_by_key(|diagnostic| diagnostic.span().map_or(usize::MAX, |span| span.start));
         self
     }

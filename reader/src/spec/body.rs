@@ -14,6 +14,15 @@ tables! {
     #[cfg_attr(test, schemars(extend("anyOf" = [
         { "required": ["rod"] }, { "required": ["tube"] }, { "required": ["box"] }, { "required": ["centre", "mass"] },
         { "required": ["centre", "massless"] }
+    ], "allOf" = [
+        {
+            "if": { "anyOf": [{ "required": ["rod"] }, { "required": ["tube"] }, { "required": ["box"] }] },
+            "then": { "oneOf": [{ "required": ["density"] }, { "required": ["mass"] }] }
+        },
+        {
+            "if": { "required": ["width"], "properties": { "width": { "type": "array" } } },
+            "then": { "required": ["width_axis"] }
+        }
     ])))]
     pub struct BodySpec {
         /// Solid cylinder between two points.
@@ -52,9 +61,13 @@ tables! {
         pub centre: Option<Centre>,
         /// Inertia about the centre: xx, yy, zz or xx, yy, zz, xy, xz, yz.
         /// [kg m^2; of a real body; default zero; e.g. ["4e-4 kg m^2", "5e-4 kg m^2", "9e-4 kg m^2"]]
+        #[cfg_attr(test, schemars(extend("anyOf" = [
+            { "minItems": 3, "maxItems": 3 }, { "minItems": 6, "maxItems": 6 }
+        ])))]
         pub inertia: Option<At<Vec<Quantity>>>,
         /// Axes of `inertia`: two or three directions at right angles.
         /// [directions; at right angles; default those of the ground; e.g. [[1, 0, 0], [0, 1, 0]]]
+        #[cfg_attr(test, schemars(extend("minItems" = 2, "maxItems" = 3)))]
         pub axes: Option<At<Vec<Triple>>>,
         /// How the body bends; rigid without.
         /// [table; default rigid]

@@ -9,6 +9,7 @@ use toml::de::DeTable;
 use super::drawn::Turn;
 use super::file::{File, Parameter};
 use super::include::{IncludeSpec, RotationSpec};
+use super::not_toml;
 use super::parse::{self, Spec};
 use super::placed::{Place, turn};
 use super::read;
@@ -186,10 +187,10 @@ impl Composer {
         let placed = SourceFile { name: String::new(), text: " ".repeat(start) + &text };
         let is_first = self.told.insert(real);
         let (document, errors) = DeTable::parse_recoverable(&placed.text);
-        let mut problems = parse::syntax_errors(&placed, &errors);
+        let mut problems = not_toml::syntax_errors(&placed, &errors);
         let mut file = None;
         if problems.is_empty() {
-            let says_version = document.get_ref().iter().any(|(key, _)| key.get_ref() == "spec");
+            let says_version = parse::said_version(&document);
             let (found, notes) = read::read::<File>(document);
             let wrong = parse::version_problem(&found, says_version, Span { start, end: start });
             file = wrong.is_none().then_some(found);

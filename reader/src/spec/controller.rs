@@ -10,6 +10,15 @@ use super::written::{Quantity, Table};
 
 tables! {
     /// A controller: PID with limits, or a law of its own at sampled times. Its name stands for what it puts out.
+    #[cfg_attr(test, schemars(extend("anyOf" = [
+        { "required": ["output", "sample_time"] },
+        {
+            "required": ["measured", "setpoint"],
+            "anyOf": [
+                { "required": ["proportional"] }, { "required": ["integral"] }, { "required": ["derivative"] }
+            ]
+        }
+    ])))]
     pub struct ControllerSpec {
         /// What is controlled, over all that a force may depend on, sensors and the controllers above it included.
         /// [any unit; required but for `output`; e.g. "shaft.v"]

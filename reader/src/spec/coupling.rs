@@ -17,28 +17,39 @@ tables! {
         { "required": ["worm", "teeth"] }, { "required": ["rack", "at"] },
         { "required": ["belt", "radii"] }, { "required": ["planetary", "teeth"] },
         { "required": ["differential"] }, { "required": ["relation"] }
-    ])))]
+    ], "allOf" = [{
+        "if": { "required": ["rack"] },
+        "then": { "properties": { "teeth": { "minItems": 1, "maxItems": 1 } } },
+        "else": { "properties": { "teeth": { "minItems": 2, "maxItems": 2 } } }
+    }])))]
     pub struct CouplingSpec {
         /// Two wheels with parallel axes, spur or helical, external or internal.
         /// [two bodies; e.g. ["pinion", "wheel"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 2, "maxItems" = 2)))]
         pub gears: Option<At<Vec<Name>>>,
         /// Two bevel wheels, whose axes meet.
         /// [two bodies; e.g. ["pinion", "crown"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 2, "maxItems" = 2)))]
         pub bevel: Option<At<Vec<Name>>>,
         /// A worm and its wheel, with axes at right angles.
         /// [two bodies; e.g. ["worm", "wheel"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 2, "maxItems" = 2)))]
         pub worm: Option<At<Vec<Name>>>,
         /// A pinion and a rack.
         /// [two bodies; e.g. ["pinion", "rack"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 2, "maxItems" = 2)))]
         pub rack: Option<At<Vec<Name>>>,
         /// Two pulleys or sprockets of a belt or chain, with parallel axes.
         /// [two bodies; e.g. ["motor", "fan"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 2, "maxItems" = 2)))]
         pub belt: Option<At<Vec<Name>>>,
         /// Sun, ring and carrier of a planetary set, whose planets are no bodies of the file.
         /// [three bodies; e.g. ["sun", "ring", "arm"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 3, "maxItems" = 3)))]
         pub planetary: Option<At<Vec<Name>>>,
         /// The two side shafts of a differential and its cage.
         /// [three bodies; e.g. ["left", "right", "cage"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 3, "maxItems" = 3)))]
         pub differential: Option<At<Vec<Name>>>,
         /// Factors of joint coordinates whose sum stays the same; a joint with several is written as `"C.q2"`.
         /// [table of factors; e.g. { R1 = 1, P1 = "-400 1/m" }]
@@ -48,6 +59,7 @@ tables! {
         pub teeth: Option<At<Vec<Quantity>>>,
         /// Pitch radii of pulleys or sprockets.
         /// [m; above 0; required of a belt; e.g. ["40 mm", "80 mm"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 2, "maxItems" = 2)))]
         pub radii: Option<At<Vec<Quantity>>>,
         /// Module in the normal plane, against which the drawing is held; of a worm its axial module.
         /// [m; above 0; default from the drawing, of a worm required; e.g. "2 mm"]

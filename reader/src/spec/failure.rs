@@ -138,6 +138,11 @@ impl Error for Failure {
         failure.in_place_of_list = (expected == "a list").then_some(text);
         failure
     }
+    /// Of tables, which may have any number of entries but this.
+    fn invalid_length(_: usize, expected: &dyn Expected) -> Self {
+        Self::of(Code::WrongCount, format!("found an empty table where {expected} is needed"))
+            .advise("write `[0, 0, 1]` for all, or `{ crank = [0, 0, 1], rocker = [0, 0, 1] }`")
+    }
     fn unknown_field(key: &str, expected: &'static [&'static str]) -> Self {
         let mut failure = Self::of(Code::UnknownKey, unknown_key(key));
         failure.help = Some(known_keys(key, expected));

@@ -33,6 +33,7 @@ use super::written::{At, Name, Quantity, Table, Triple};
 pub struct File {
     /// Version of this format: 1.
     /// [1; required; e.g. 1]
+    #[cfg_attr(test, schemars(extend("const" = 1)))]
     pub spec: Option<At<i64>>,
     /// Name of the mechanism, also in generated code.
     /// [text; letters, digits and _; required; e.g. "four_bar"]
@@ -168,6 +169,7 @@ tables! {
         pub friction_slope: Option<Quantity>,
         /// Sliding speed below which friction is smoothed. Two speeds: Ambrosio's correction.
         /// [m/s; above 0, one or two; default 1 mm/s; e.g. ["1 mm/s"]]
+        #[cfg_attr(test, schemars(extend("minItems" = 1, "maxItems" = 2)))]
         pub friction_speed: Option<At<Vec<Quantity>>>,
         /// Our own assumption.
         /// [mark]
@@ -337,6 +339,7 @@ pub enum Input {
 
 tables! {
     /// A signal with unit and default apart.
+    #[cfg_attr(test, schemars(extend("anyOf" = [{ "required": ["unit"] }, { "required": ["default"] }])))]
     pub struct InputTable {
         /// Unit of the default if that is a bare number, and of the same dimension if it is not.
         /// [text; default that of `default`; e.g. "N m"]

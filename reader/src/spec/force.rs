@@ -15,10 +15,28 @@ use crate::source::Span;
 tables! {
     /// A force element: exactly one of `spring`, `cable`, `bushing`, `force`, `torque`.
     #[cfg_attr(test, schemars(extend("oneOf" = [
-        { "required": ["spring", "at"] }, { "required": ["cable", "at", "stiffness"] }, { "required": ["bushing", "at"] },
+        {
+            "required": ["spring", "at"],
+            "anyOf": [
+                { "required": ["stiffness", "length"] },
+                { "anyOf": [{ "required": ["damping"] }, { "required": ["preload"] }], "not": { "required": ["stiffness"] } }
+            ]
+        },
+        { "required": ["cable", "at", "stiffness"] },
+        {
+            "required": ["bushing", "at"],
+            "anyOf": [
+                { "required": ["translation"] }, { "required": ["rotation"] }, { "required": ["stiffness_matrix"] },
+                { "required": ["damping_matrix"] }
+            ]
+        },
         { "required": ["force", "at", "components"] },
         { "required": ["torque", "components"] }
-    ])))]
+    ], "allOf" = [{
+        "if": { "anyOf": [{ "required": ["spring"] }, { "required": ["cable"] }] },
+        "then": { "properties": { "at": { "type": "array", "minItems": 2, "maxItems": 2 } } },
+        "else": { "properties": { "at": { "minItems": 1, "maxItems": 1 } } }
+    }])))]
     pub struct ForceSpec {
         /// Spring and damper between two bodies.
         /// [two bodies; e.g. ["ground", "rocker"]]

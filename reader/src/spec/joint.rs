@@ -68,6 +68,7 @@ tables! {
         pub axis: Option<PerBody>,
         /// The two axes of a universal joint: on the parent, on the child.
         /// [two directions; required of universal; e.g. [[1, 0, 0], [0, 1, 0]]]
+        #[cfg_attr(test, schemars(extend("minItems" = 2, "maxItems" = 2)))]
         pub axes: Option<At<Vec<PerBody>>>,
         /// Direction of `q1` of a planar or inplane joint, and of a slot.
         /// [direction; required of a slot; default near an axis of the ground; e.g. [1, 0, 0]]
@@ -131,6 +132,10 @@ tables! {
     }
 
     /// A joint spring: for the only coordinate, or by coordinate.
+    #[cfg_attr(test, schemars(extend("anyOf" = [
+        { "required": ["stiffness"] }, { "required": ["q"] }, { "required": ["q1"] }, { "required": ["q2"] },
+        { "required": ["q3"] }
+    ])))]
     pub struct SpringSpec {
         /// Stiffness.
         /// [N m or N/m; any; required; e.g. "500 N/m"]

@@ -10,6 +10,7 @@ use super::written::{At, Name, Quantity, Table};
 
 tables! {
     /// A duty cycle: how a machine that wears is used, by segments or by a measured series.
+    #[cfg_attr(test, schemars(extend("anyOf" = [{ "required": ["segments"] }, { "required": ["series"] }])))]
     pub struct MissionSpec {
         /// What it is.
         /// [text]
@@ -26,6 +27,7 @@ tables! {
     }
 
     /// A segment of a duty cycle.
+    #[cfg_attr(test, schemars(extend("oneOf" = [{ "required": ["share"] }, { "required": ["duration"] }])))]
     pub struct SegmentSpec {
         /// Share of the operating time, or "rest".
         /// [1; above 0; default `duration`; e.g. "60 %"]

@@ -14,6 +14,7 @@ mod force;
 mod include;
 mod joint;
 mod mission;
+mod not_toml;
 mod parse;
 mod placed;
 mod point;

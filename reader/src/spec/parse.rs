@@ -1,13 +1,13 @@
 //! From the text of a file to [`Spec`]. Faults in single values do not stop it: they wait in the
 //! [`Spec`] until the resolver has found the others, so that a user sees all at once.
 
-use std::collections::HashSet;
-
+use toml::Spanned;
 use toml::de::DeTable;
 
 use super::file::File;
+use super::not_toml::syntax_errors;
 use super::read;
-use crate::diagnostic::{Code, Diagnostic, Diagnostics};
+use crate::diagnostic::{Code, Diagnostic, Diagnostics, nearest};
 use crate::source::{SourceFile, Span};
 
 /// The version of the format that this program reads.
@@ -37,7 +37,7 @@ pub fn parse(source: &SourceFile) -> Result<Spec, Diagnostics> {
     if !errors.is_empty() {
         return Err(Diagnostics::from_list(syntax_errors(source, &errors)).located(source));
     }
-    let says_version = document.get_ref().iter().any(|(key, _)| key.get_ref() == "spec");
+    let says_version = said_version(&document);
     let (file, notes) = read::read::<File>(document);
     if let Some(problem) = version_problem(&file, says_version, Span::default()) {
         return Err(Diagnostics::from_list(vec![problem]).located(source));
@@ -51,39 +51,25 @@ pub fn parse(source: &SourceFile) -> Result<Spec, Diagnostics> {
     })
 }
 
-/// At most one error a line: what follows in a line is usually caused by the first.
-pub(super) fn syntax_errors(source: &SourceFile, errors: &[toml::de::Error]) -> Vec<Diagnostic> {
-    let ends: Vec<usize> = source.text.match_indices('\n').map(|(at, _)| at).collect();
-    let mut seen = HashSet::new();
-    let mut list = Vec::new();
-    for error in errors {
-        let span = error.span().map_or(Span::default(), Span::from);
-        let line = ends.partition_point(|end| *end < span.start);
-        if !seen.insert(line) {
-            continue;
-        }
-        let twice = error.message().contains("duplicate key");
-        let name = source.text.get(span.start..span.end).filter(|name| twice && !name.is_empty());
-        let (message, help) = match name {
-            Some(name) => {
-                let name = name.rsplit('.').next().unwrap_or(name).trim_matches(['"', '\'', '[', ']']);
-                (
-                    format!("the key `{name}` stands twice in one table"),
-                    "keep one of the two, or give the other a name of its own",
-                )
-            }
-            None => (
-                format!("this is not TOML: {}", error.message()),
-                "quantities and formulas stand in quotes: `L1 = \"120 mm\"`; names of points in lists too",
-            ),
-        };
-        list.push(Diagnostic::new(Code::NotToml, message).at(span, "").help(help));
+/// Whether a file says its version: by `spec`, or by a key that is this one misspelt, which is where.
+#[derive(Clone, Copy)]
+pub(super) enum SaidVersion {
+    Yes,
+    Misspelt(Span),
+    No,
+}
+
+pub(super) fn said_version(document: &Spanned<DeTable<'_>>) -> SaidVersion {
+    let keys = || document.get_ref().iter().map(|(key, _)| key);
+    if keys().any(|key| key.get_ref() == "spec") {
+        return SaidVersion::Yes;
     }
-    list
+    let near = keys().find(|key| nearest(key.get_ref(), ["spec"]).is_some());
+    near.map_or(SaidVersion::No, |key| SaidVersion::Misspelt(key.span().into()))
 }
 
 /// A `spec` that is no number is among the problems already. `begin`: of the file.
-pub(super) fn version_problem(file: &File, written: bool, begin: Span) -> Option<Diagnostic> {
+pub(super) fn version_problem(file: &File, said: SaidVersion, begin: Span) -> Option<Diagnostic> {
     let wrong = |message: String| Diagnostic::new(Code::SpecVersion, message);
     match &file.spec {
         Some(version) if version.value == VERSION => None,
@@ -92,11 +78,18 @@ pub(super) fn version_problem(file: &File, written: bool, begin: Span) -> Option
                 .at(version.span, "")
                 .help("update linkwear, or write `spec = 1` and follow docs/spec-reference.md"),
         ),
-        None if written => None,
-        None => Some(
-            wrong("the file does not say which format it is in".into())
-                .at(begin, "")
-                .help("put `spec = 1` in the first line"),
-        ),
+        None => match said {
+            SaidVersion::Yes => None,
+            SaidVersion::Misspelt(key) => Some(
+                wrong("the file does not say which format it is in".into())
+                    .at(key, "")
+                    .help("did you mean `spec`? write `spec = 1`"),
+            ),
+            SaidVersion::No => Some(
+                wrong("the file does not say which format it is in".into())
+                    .at(begin, "")
+                    .help("put `spec = 1` in the first line"),
+            ),
+        },
     }
 }

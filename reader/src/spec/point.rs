@@ -8,6 +8,8 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error, IgnoredAny, MapAccess, Visitor};
+#[cfg(test)]
+use serde_json::json;
 
 use super::texts::texts_of;
 use super::written::{At, Name, PerBody, Table, Triple};
@@ -109,15 +111,23 @@ impl JsonSchema for PointSpec {
     fn json_schema(g: &mut SchemaGenerator) -> Schema {
         let position = g.subschema_for::<PerBody>();
         let triple = g.subschema_for::<Triple>();
+        let on = json!({ "type": "string", "description": "Body that carries the point. [body; default the first described with it; e.g. \"crank\"]" });
+        let assumed = json!({ "type": "boolean", "description": "Our own assumption. [mark]" });
+        let doc = json!({ "type": "string", "description": "What it is. [text]" });
         json_schema!({ "anyOf": [triple, {
             "type": "object",
             "properties": {
                 "at": { "anyOf": [position], "description": "Coordinates, for all or by body. [m; any; required; e.g. [\"L1\", \"0 mm\", 0]]" },
-                "on": { "type": "string", "description": "Body that carries the point. [body; default the first described with it; e.g. \"crank\"]" },
-                "assumed": { "type": "boolean", "description": "Our own assumption. [mark]" },
-                "doc": { "type": "string", "description": "What it is. [text]" },
+                "on": on, "assumed": assumed, "doc": doc,
             },
+            "additionalProperties": false,
+            "required": ["at"],
+        }, {
+            "type": "object",
+            "properties": { "on": on, "assumed": assumed, "doc": doc },
             "additionalProperties": triple,
+            // Some body's position.
+            "not": { "propertyNames": { "enum": ["on", "assumed", "doc"] } },
         }]})
     }
 }

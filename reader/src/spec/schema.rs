@@ -3,6 +3,7 @@
 //! The sentence about a field ends with what it takes, in brackets: `[unit; range; default X; e.g. Y]`, the last three where there are any;
 //! `required` stands for a default. Where the unit is one, a number without a unit is wrong in the schema too.
 
+mod beside;
 mod keys;
 
 use std::fs;
@@ -70,8 +71,8 @@ impl Takes {
     }
 }
 
-/// A text with a letter, which a unit or a name has, or nothing.
-const WITH_UNIT: &str = "[A-Za-zµ%{]|^[ 0.+-]*$";
+/// A text with a letter, which a unit or a name has, or zero.
+const WITH_UNIT: &str = "[A-Za-zµ%{]|^[ .+-]*0[ 0.+-]*$";
 
 /// A schema in which quantities have their unit; types it refers to are doubled under a name of their own.
 fn with_units(schema: &Value, types: &Map<String, Value>, more: &mut Map<String, Value>) -> Value {
@@ -121,6 +122,7 @@ fn schema() -> Value {
     };
     change(&mut schema["properties"]);
     for name in types.keys() {
+        beside::add_needs(name, &mut schema["$defs"][name]);
         // Types of several forms have no fields of their own.
         if let Some(fields) = schema["$defs"][name].get_mut("properties") {
             change(fields);

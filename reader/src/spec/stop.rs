@@ -12,7 +12,9 @@ use super::written::{At, Name, Quantity};
 
 tables! {
     /// End stops of one joint coordinate: they only push, beyond `lower` and `upper`.
-    #[cfg_attr(test, schemars(extend("required" = ["joint", "stiffness"])))]
+    #[cfg_attr(test, schemars(extend("required" = ["joint", "stiffness"], "anyOf" = [
+        { "required": ["lower"] }, { "required": ["upper"] }
+    ])))]
     pub struct StopSpec {
         /// The joint; one coordinate of a joint with several is written as `"C.q2"`.
         /// [joint; required; e.g. "slide"]

@@ -40,6 +40,7 @@ without_texts!(Interpolation, Outside);
 
 tables! {
     /// A function given by rows, called in formulas by its name.
+    #[cfg_attr(test, schemars(extend("oneOf" = [{ "required": ["data"] }, { "required": ["argument", "value"] }])))]
     pub struct TableSpec {
         /// What it is.
         /// [text]

@@ -103,6 +103,7 @@ impl JsonSchema for Literal {
         json_schema!({
             "description": "A number, a quantity with its unit (\"120 mm\") or a formula (\"L1 + L2\").",
             "type": ["number", "string"],
+            "pattern": "[^ ]",
         })
     }
 }
@@ -173,8 +174,19 @@ pub enum PerBody {
     #[serde(rename = "list", alias = "scalar")]
     Shared(Triple),
     /// By body.
-    #[serde(rename = "table")]
+    #[serde(rename = "table", deserialize_with = "of_bodies")]
+    #[cfg_attr(test, schemars(extend("minProperties" = 1)))]
     Each(Table<Triple>),
+}
+
+/// Triples of one body or more: an empty table says nothing of any.
+fn of_bodies<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Table<Triple>, D::Error> {
+    let table = Table::deserialize(deserializer)?;
+    if table.0.is_empty() {
+        Err(D::Error::invalid_length(0, &"a list of three or one for each body"))
+    } else {
+        Ok(table)
+    }
 }
 
 impl PerBody {

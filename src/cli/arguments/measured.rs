@@ -144,7 +144,7 @@ pub struct PlanArguments {
     #[arg(long, value_name = "TIME", value_parser = positive, requires = "parts", allow_negative_numbers = true)]
     pub horizon: Option<f64>,
     /// Probability that the spares are enough.
-    #[arg(long, value_name = "P", value_parser = within_one, default_value = "0.95", allow_negative_numbers = true)]
+    #[arg(long, value_name = "P", value_parser = within_one, default_value = "0.95", requires = "parts", allow_negative_numbers = true)]
     pub confidence: f64,
     /// Draw the cost over the age of replacement, with its best age and what the fit leaves open (SVG; PNG by the feature `png`).
     #[cfg(feature = "page")]

@@ -102,6 +102,14 @@ pub const COMMANDS: &[Command] = &[
         right: "linkwear fit examples/data/sliding_wear_100g.csv --unit unit --wear wear_um --exposure cycles --from-zero --power-law",
     },
     Command {
+        code: "C0012",
+        title: "The paper's case study failed.",
+        text: "Of the program of the case study alone, which is no command of linkwear: a run, a life, a fit or a picture of it could \
+               not be made, as the message says. Nothing was written. Its mechanism is mechanisms/rssr.toml, whose names it goes by.",
+        wrong: "cargo run --release -p linkwear-case-study -- --out study    (with another joint R1 in mechanisms/rssr.toml)",
+        right: "cargo run --release -p linkwear-case-study -- --quick --out study",
+    },
+    Command {
         code: "C0013",
         title: "A run that was interrupted and cannot be gone on with.",
         text: "The folder belongs to a run with another file, other options or another version, is in use, or was damaged. Going \

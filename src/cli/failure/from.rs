@@ -28,7 +28,7 @@ impl From<WriteError> for Failure {
             WriteError::System { file, .. } => (
                 "C0003",
                 file,
-                "nothing was written there; give a file in a folder that exists and can be written",
+                "nothing was written there; give a file in a folder that exists, can be written and has room",
             ),
             WriteError::Exists(file) => ("C0004", file, "choose another name"),
         };

@@ -189,18 +189,21 @@ fn rising(table: &CsvTable<'_>, at: &[f64], what: &str) -> Result<(), Failure> {
     Err(wrong.into())
 }
 
-/// `0.02 N m`, positive.
+/// `0.02 N m`, positive. As in a column, a number alone is one of what has no unit, not an angle.
 fn level_in_si(option: &str, text: &str, si: &str) -> Result<f64, Failure> {
-    let needed = unit_size(si).map_or(Dimension::NONE, |own| own.dimension);
     let found = as_written(text).and_then(|(value, unit)| {
-        let unit = if unit.is_empty() { UnitSize::ONE } else { unit_size(unit)? };
+        let unit = match unit {
+            "" if si == "1" => UnitSize::ONE,
+            "" => return None,
+            unit => unit_size(unit)?,
+        };
         in_terms_of(si, unit).map(|size| value * size)
     });
     found.filter(|level| *level > 0.0 && level.is_finite()).ok_or_else(|| {
-        let help = if needed == Dimension::NONE {
+        let help = if si == "1" {
             "a positive number is needed".to_owned()
         } else {
-            format!("a positive number with a unit of the same kind as {si} is needed")
+            format!("a positive number with its unit is needed, {si} or another of the same kind")
         };
         Failure::usage(format!("{option}: `{text}` is no standard deviation here"), help)
     })

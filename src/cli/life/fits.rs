@@ -34,6 +34,10 @@ fn assign<'a>(text: &'a str, joints: &[&str]) -> Result<(usize, &'a Path), Failu
     });
     let is_bare = joints.len() == 1 && (!text.contains('=') || Path::new(text).exists());
     named.or(is_bare.then_some((0, Path::new(text)))).ok_or_else(|| {
+        if joints.is_empty() {
+            let help = "leave --fit out, or add [clearance.R1] and [wear.R1], R1 being the joint that wears";
+            return Failure::usage(format!("--fit {text}: no joint of this mechanism wears"), help);
+        }
         let help = format!("write --fit JOINT=FIT.json; wearing joints: {}", joints.join(", "));
         Failure::usage(format!("--fit {text} does not say for which wearing joint it is"), help)
     })

@@ -7,7 +7,7 @@ use serde_json::Value;
 use super::super::arguments::ReportArguments;
 use super::super::failure::Failure;
 use super::super::life::folder::{LIFE, SOURCES};
-use super::super::options::{CLOSURES, Input};
+use super::super::options::{CLOSURES, Input, LivesArguments};
 use crate::life::{JOURNAL, SHARD};
 use crate::mechanism::MECHANISM;
 use crate::provenance::FORMAT;
@@ -111,18 +111,34 @@ impl Lived {
 /// The first option that is given and would be one of a life.
 fn option_of_a_life(arguments: &ReportArguments) -> Option<&'static str> {
     let ReportArguments { input, lives, revolutions, threads, equations, .. } = arguments;
+    // All of them, so that a new one is not passed over.
+    let LivesArguments {
+        trajectories,
+        fit,
+        shared_factor,
+        seed,
+        mission,
+        no_mission,
+        mean,
+        coupling,
+        no_feedback,
+        settle,
+        average,
+    } = lives;
     let given = [
         ("--set", !input.overrides.is_empty()),
         ("--closure", input.closure.is_some()),
-        ("--fit", !lives.fit.is_empty()),
-        ("--trajectories", lives.trajectories.is_some()),
-        ("--shared-factor", lives.shared_factor.is_some()),
-        ("--seed", lives.seed != 1),
-        ("--mean", lives.mean),
-        ("--coupling", lives.coupling.is_some()),
-        ("--no-feedback", lives.no_feedback),
-        ("--settle", lives.settle.is_some()),
-        ("--average", lives.average != 1),
+        ("--fit", !fit.is_empty()),
+        ("--trajectories", trajectories.is_some()),
+        ("--shared-factor", shared_factor.is_some()),
+        ("--seed", *seed != 1),
+        ("--mission", mission.is_some()),
+        ("--no-mission", *no_mission),
+        ("--mean", *mean),
+        ("--coupling", coupling.is_some()),
+        ("--no-feedback", *no_feedback),
+        ("--settle", settle.is_some()),
+        ("--average", *average != 1),
         ("--tol", revolutions.tol.is_some()),
         ("--step", revolutions.step.is_some()),
         ("--threads", threads.is_some()),

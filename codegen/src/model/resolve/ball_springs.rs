@@ -6,6 +6,7 @@ use super::quantity::Allowed;
 use super::resolver::{Resolver, place};
 use crate::diagnostic::Code;
 use crate::model::{Coordinate, Force, Formula, Joint, Term};
+use crate::source::Span;
 use crate::spec::{Dimension, ELASTIC, JointSpec, Name, Quantity, SpringPart, SpringSpec, Table};
 
 /// Numbers of an elastic mount by axis, before its matrices: stiffness, damping, both for rotations, preload of both.
@@ -26,7 +27,7 @@ impl Resolver<'_> {
             else {
                 continue;
             };
-            let [stiffness, preload] = self.ball_spring(name, spring);
+            let [stiffness, preload] = self.ball_spring((name, written.span), spring);
             let mut formulas = vec![Formula::number(0.0, Dimension::NONE); ALL];
             formulas[6..9].clone_from_slice(&stiffness);
             formulas[15..BY_AXIS].clone_from_slice(&preload);
@@ -41,7 +42,7 @@ impl Resolver<'_> {
     }
 
     /// Stiffness, and preload with what rest angles add to it, by component of the rotation vector.
-    fn ball_spring(&mut self, name: &Name, spring: &SpringSpec) -> [[Formula; 3]; 2] {
+    fn ball_spring(&mut self, (name, whole): (&Name, Span), spring: &SpringSpec) -> [[Formula; 3]; 2] {
         let what = place("spring", "joint", name);
         let torque = |value: f64| Formula::number(value, Dimension::TORQUE);
         let mut found = [[0.0; 3], [0.0; 3]].map(|list| list.map(torque));
@@ -61,7 +62,7 @@ impl Resolver<'_> {
         }
         if spring.stiffness.is_none() && parts.is_empty() {
             let message = format!("{what} has no `stiffness`");
-            self.refuse(Code::MissingKey, name.span, message).help("add `stiffness = \"50 N m/rad\"`");
+            self.lacking(whole, name.span, "stiffness", message).help("add `stiffness = \"50 N m/rad\"`");
         }
         for (key, part) in parts {
             let Some(component) = ["q1", "q2", "q3"].iter().position(|known| *known == key) else {
@@ -72,7 +73,7 @@ impl Resolver<'_> {
             };
             let SpringPart { stiffness, rest, preload } = &part.value;
             let Some(stiffness) = stiffness else {
-                self.refuse(Code::MissingKey, part.span, format!("{what} has no `stiffness`"))
+                self.lacking(part.span, part.span, "stiffness", format!("{what} has no `stiffness`"))
                     .help("add `stiffness = \"50 N m/rad\"`");
                 continue;
             };

@@ -109,7 +109,7 @@ impl Resolver<'_> {
             let key = if own.young.is_none() { "young" } else { "modes" };
             let example = if own.young.is_none() { "\"210 GPa\"" } else { "6" };
             let message = format!("the flexible body `{}` has no `{key}`", name.value);
-            self.refuse(Code::MissingKey, spec.span, message).help(format!("add `{key} = {example}`"));
+            self.lacking(spec.span, spec.span, key, message).help(format!("add `{key} = {example}`"));
         }
         let pressure = Dimension::of(-1, 1, -2);
         let youngs_modulus = self.fixed(name, "young", own.young.as_ref(), pressure, f64::NAN);

@@ -146,7 +146,8 @@ impl Resolver<'_> {
         self.check_positive(&inner, true, &what);
         let (inside, outside) = (self.value(&inner), self.value(radius));
         if inside >= outside && outside > 0.0 {
-            let message = format!("{what} is {inside} m, not less than `radius`, {outside} m");
+            let message =
+                format!("{what} is {}, not less than `radius`, {}", self.told(&inner), self.told(radius));
             self.refuse(Code::NotPositive, inner.span, message).label("no wall is left");
         }
         inner

@@ -272,14 +272,15 @@ impl Resolver<'_> {
 
     /// Two terms of one dimension.
     fn alike(&mut self, both: &[Expression], verb: &str, here: Here<'_>) -> Option<([Term; 2], Dimension)> {
-        let [a, b] = both else { return None };
-        let resolved = [a, b].map(|one| self.term(one, here.origin));
+        let [left, right] = both else { return None };
+        let resolved = [left, right].map(|one| self.term(one, here.origin));
         let [(a, of_a), (b, of_b)] = resolved.into_iter().collect::<Option<Vec<_>>>()?.try_into().ok()?;
         let mut of = [of_a, of_b];
         take_over(both, &mut of);
         if of[0] != of[1] {
             let message = format!("{} and {} cannot be {verb}", of[0].description(), of[1].description());
-            self.refuse_in(here, Code::UnitMismatch, &message).help("give both the same kind of unit");
+            let help = self.one_kind(&[left, right]);
+            self.refuse_in(here, Code::UnitMismatch, &message).help(help);
             return None;
         }
         Some(([a, b], of[0]))

@@ -124,8 +124,14 @@ impl Resolver<'_> {
             let value = self.value(&radial);
             if value >= laws.journal_radius {
                 let message = format!(
-                    "the clearance of joint `{}`, {value} m, is not less than its journal's radius, {} m",
-                    name.value, laws.journal_radius
+                    "the clearance of joint `{}`, {}, is not less than its journal's radius, {}",
+                    name.value,
+                    self.told(&radial),
+                    self.told_at(
+                        written.value.journal_radius.as_ref().map_or(radial.span, |own| own.span),
+                        laws.journal_radius,
+                        Dimension::LENGTH
+                    )
                 );
                 self.refuse(Code::BadClearance, radial.span, message)
                     .help("the clearance is the difference of the radii of bearing and journal");
@@ -174,7 +180,7 @@ impl Resolver<'_> {
     pub(super) fn lacks(&mut self, name: &Name, span: Span, table: &str, keys: &[(&str, bool, &str)]) {
         for (key, _, example) in keys.iter().filter(|(_, missing, _)| *missing) {
             let message = format!("the {table} of joint `{}` has no `{key}`", name.value);
-            self.refuse(Code::MissingKey, span, message).help(format!("add `{key} = {example}`"));
+            self.lacking(span, span, key, message).help(format!("add `{key} = {example}`"));
         }
     }
 
@@ -281,7 +287,10 @@ impl Resolver<'_> {
         };
         // What is no number has been reported already.
         if !fits && speeds.iter().all(|speed| speed.is_finite()) {
-            let message = format!("the friction speeds of joint `{}` are {speeds:?} m/s", name.value);
+            let told = list.value.iter().zip(speeds);
+            let told = told.map(|(own, speed)| self.told_at(own.span, *speed, Dimension::of(1, 0, -1)));
+            let told: Vec<_> = told.collect();
+            let message = format!("the friction speeds of joint `{}` are {}", name.value, told.join(", "));
             self.refuse(Code::BadClearance, list.span, message).help(
                 "give one above 0, `[\"1 mm/s\"]`, or two that rise, `[\"0.1 mm/s\", \"1 mm/s\"]` (Ambrosio)",
             );

@@ -127,7 +127,7 @@ impl Resolver<'_> {
             return Some(value);
         }
         if value <= 0.0 {
-            let message = format!("{what} is {value} s: it would act all the time at once");
+            let message = format!("{what} is {}: it would act all the time at once", self.told(&formula));
             self.refuse(Code::BadController, written.span, message)
                 .help("write the time from sample to sample, such as \"1 ms\"; without it the controller acts all the time");
         }

@@ -188,7 +188,7 @@ impl Resolver<'_> {
         data.modes.iter_mut().zip(frequencies).for_each(|(mode, frequency)| mode.frequency = frequency);
         let Some(origin) = &spec.value.origin else {
             let message = format!("nothing says where the floating frame of `{}` lies", name.value);
-            self.refuse(Code::MissingKey, spec.span, message)
+            self.lacking(spec.span, spec.span, "origin", message)
                 .help("add `origin = \"P\"`, the point at the origin of the modal data");
             return None;
         };

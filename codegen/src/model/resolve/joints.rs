@@ -26,7 +26,7 @@ impl Resolver<'_> {
                 surface: surface.map(Box::new),
                 cut: spec.cut.as_ref().is_some_and(|cut| cut.value),
                 drives: self.drives(name, spec, &model),
-                passive: self.passive(name, spec, &model),
+                passive: self.passive(name, joint, &model),
                 clearance: None,
                 model,
                 span: name.span,
@@ -122,8 +122,8 @@ impl Resolver<'_> {
         }
     }
 
-    fn passive(&mut self, name: &Name, spec: &JointSpec, model: &JointModel) -> Vec<Passive> {
-        let mut passive = Vec::new();
+    fn passive(&mut self, name: &Name, joint: &At<JointSpec>, model: &JointModel) -> Vec<Passive> {
+        let (spec, mut passive) = (&joint.value, Vec::new());
         if model.is_driven_ball() {
             let others = [("damping", &spec.damping), ("friction", &spec.friction), ("force", &spec.force)];
             for (key, written) in others {
@@ -151,7 +151,7 @@ impl Resolver<'_> {
         }
         // Those of a spherical joint are force elements.
         if let (Some(spring), false) = (&spec.spring, model.is_ball()) {
-            self.springs(name, spring, model, &mut passive);
+            self.springs((name, joint.span), spring, model, &mut passive);
         }
         passive.extend(self.dry_friction(name, spec, model));
         let what = place("force", "joint", name);
@@ -169,7 +169,13 @@ impl Resolver<'_> {
         Passive::Damping { coordinate, coefficient }
     }
 
-    fn springs(&mut self, name: &Name, spring: &SpringSpec, model: &JointModel, passive: &mut Vec<Passive>) {
+    fn springs(
+        &mut self,
+        (name, whole): (&Name, Span),
+        spring: &SpringSpec,
+        model: &JointModel,
+        passive: &mut Vec<Passive>,
+    ) {
         let what = place("spring", "joint", name);
         let parts = by_key([&spring.q, &spring.q1, &spring.q2, &spring.q3]);
         let mut written: Vec<(&str, [&Option<Quantity>; 3], Span)> = parts
@@ -187,7 +193,7 @@ impl Resolver<'_> {
             let Some(coordinate) = self.coordinate(key, model, span, &what) else { continue };
             let is = model.coordinates()[coordinate];
             let Some(stiffness) = stiffness else {
-                self.refuse(Code::MissingKey, span, format!("{what} has no `stiffness`"))
+                self.lacking(whole, span, "stiffness", format!("{what} has no `stiffness`"))
                     .help(format!("add `stiffness = \"50 {}\"`", is.stiffness().si_unit()));
                 continue;
             };

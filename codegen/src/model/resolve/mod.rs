@@ -56,6 +56,7 @@ mod term;
 mod turns;
 mod wear;
 mod wheels;
+mod words;
 
 pub use overrides::{OverrideError, Overrides};
 

@@ -4,6 +4,7 @@ use super::names::Thing;
 use super::overrides::Overrides;
 use super::quantity::{Allowed, Origin};
 use super::resolver::Resolver;
+use super::words::leaves_of;
 use crate::diagnostic::{Code, Diagnostic};
 use crate::id::ParameterId;
 use crate::model;
@@ -261,16 +262,9 @@ fn written(quantity: &Quantity) -> Option<(f64, String)> {
 
 /// Names of the file that occur in an expression.
 fn names_in<'a>(expression: &'a Expression, names: &mut Vec<&'a str>) {
-    match &expression.form {
-        Form::Number { .. } => {}
-        Form::Name(name) if name == "pi" => {}
-        Form::Name(name) | Form::Member(name, _) => names.push(name),
-        Form::Neg(inner) | Form::Power(inner, _) => names_in(inner, names),
-        Form::Binary(_, left, right) => {
-            names_in(left, names);
-            names_in(right, names);
-        }
-        Form::Call(_, arguments) => arguments.iter().for_each(|argument| names_in(argument, names)),
-        Form::Compare(_, both) => both.iter().for_each(|side| names_in(side, names)),
-    }
+    names.extend(leaves_of(expression).into_iter().filter_map(|leaf| match &leaf.form {
+        Form::Name(name) if name == "pi" => None,
+        Form::Name(name) | Form::Member(name, _) => Some(name.as_str()),
+        _ => None,
+    }));
 }

@@ -165,7 +165,7 @@ impl Resolver<'_> {
         draft: Draft<'_>,
         unit: Dimension,
     ) -> Option<[Option<Formula>; 2]> {
-        let Draft { name, spec, .. } = draft;
+        let Draft { name, span, spec, .. } = draft;
         let mut limit = |key: &str, written: &Option<Quantity>| {
             let own = written.as_ref();
             own.map(|own| self.formula(own, Some(unit), Allowed::STATE, &place(key, "controller", name)))
@@ -174,8 +174,9 @@ impl Resolver<'_> {
         if let [Some(lower), Some(upper)] = &limits {
             let [least, most] = [lower, upper].map(|limit| self.value(limit));
             if least >= most {
-                let [least, most] = [(&spec.lower, least), (&spec.upper, most)]
-                    .map(|(written, value)| self.as_written(written.as_ref(), value, unit));
+                let [least, most] = [(&spec.lower, least), (&spec.upper, most)].map(|(written, value)| {
+                    self.told_at(written.as_ref().map_or(span, |written| written.span), value, unit)
+                });
                 let message = format!(
                     "controller `{}`: `lower` is {least}, which is not below `upper`, {most}",
                     name.value

@@ -120,28 +120,6 @@ impl Resolver<'_> {
         Formula { term, dimension, span: quantity.span }
     }
 
-    /// A value in the words of the file, `120 mm`, where it is a number with a unit; of a formula what comes of it, in SI.
-    pub(super) fn as_written(&self, quantity: Option<&Quantity>, value: f64, dimension: Dimension) -> String {
-        let text = quantity.and_then(|quantity| match &quantity.value {
-            Literal::Text(text) => Some(text.trim()),
-            Literal::Number(_) => None,
-        });
-        let plain = text.filter(|text| {
-            parse_expression(text, &|word| self.names.is_name(word))
-                .is_ok_and(|read| read.quantity().is_some())
-        });
-        let of_parameter = || {
-            let found = self.parameters.iter().find(|parameter| Some(&*parameter.name) == text)?;
-            let (number, unit) = found.written.as_ref()?;
-            Some(format!("{number} {unit}"))
-        };
-        let si = || match dimension {
-            Dimension::NONE => value.to_string(),
-            dimension => format!("{value} {}", dimension.si_unit()),
-        };
-        plain.map(str::to_owned).or_else(of_parameter).unwrap_or_else(si)
-    }
-
     fn read(&mut self, origin: &Origin<'_>, expected: Option<Dimension>) -> Resolved {
         let (resolved, bare) = match &origin.quantity.value {
             Literal::Number(value) => ((Term::Number(*value), Dimension::NONE), Some(*value)),
@@ -225,7 +203,11 @@ impl Resolver<'_> {
         }
         let help = match &origin.quantity.value {
             Literal::Text(text) => {
-                advice::mismatch(origin.what, text, (found, self.turns_of(origin.quantity).of), expected)
+                let turning = self.turns_of(origin.quantity).of;
+                let help = advice::mismatch(origin.what, text, (found, turning), expected);
+                let read = self.read_again(text);
+                let defined = read.and_then(|read| self.defined_in(&[&read]));
+                defined.map_or_else(|| help.clone(), |defined| format!("{help}; {defined}"))
             }
             Literal::Number(_) => advice::like(origin.what, expected),
         };

@@ -6,12 +6,12 @@ use super::known_controllers::Controllers;
 use super::modal_start::ModalStart;
 use super::names::Names;
 use super::tabled::Tabled;
-use crate::diagnostic::{Code, Diagnostic, Severity};
+use crate::diagnostic::{Code, Diagnostic, Severity, nearest};
 use crate::id::JointId;
 use crate::input::Reach;
 use crate::model::{Formula, JointModel, Parameter, Point, Term};
 use crate::source::{SourceFile, Span};
-use crate::spec::{Dimension, ForceKind, Name, Turning};
+use crate::spec::{ForceKind, Name, Turning};
 
 /// What the steps of the resolver share.
 pub(super) struct Resolver<'a> {
@@ -120,6 +120,25 @@ impl Resolver<'_> {
         if self.skipped.iter().any(explained) { Reported(None) } else { self.refuse(code, at, message) }
     }
 
+    /// A key that a table lacks; nothing if it is there, wrong or misspelt, which is told already.
+    pub(super) fn lacking(
+        &mut self,
+        whole: Span,
+        at: Span,
+        key: &str,
+        message: impl Into<String>,
+    ) -> Reported<'_> {
+        let is_meant = |skipped: &Span| {
+            let before = self.source.text.get(whole.start..skipped.start)?;
+            let name = before.trim_end().strip_suffix('=')?.trim_end();
+            let name = name.rsplit(|c: char| !c.is_alphanumeric() && c != '_').next()?;
+            nearest(name, [key]).or((name == key).then_some(key))
+        };
+        let is_told =
+            self.skipped.iter().any(|skipped| skipped.end <= whole.end && is_meant(skipped).is_some());
+        if is_told { Reported(None) } else { self.refuse(Code::MissingKey, at, message) }
+    }
+
     pub(super) fn wrong_count(&mut self, span: Span, found: usize, needed: &str, what: &str) {
         let entries = if found == 1 { "entry" } else { "entries" };
         let message = format!("{what} has {found} {entries}, not {needed}");
@@ -144,11 +163,7 @@ impl Resolver<'_> {
     pub(super) fn check_positive(&mut self, formula: &Formula, zero_allowed: bool, what: &str) {
         let value = self.value(formula);
         if value < 0.0 || (value == 0.0 && !zero_allowed) {
-            let unit = match formula.dimension {
-                Dimension::NONE => String::new(),
-                dimension => format!(" {}", dimension.si_unit()),
-            };
-            let message = format!("{what} is {value}{unit}");
+            let message = format!("{what} is {}", self.told(formula));
             let need = if zero_allowed { "it must not be negative" } else { "it must be positive" };
             self.refuse(Code::NotPositive, formula.span, message).label(need);
         }

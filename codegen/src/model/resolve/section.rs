@@ -38,7 +38,7 @@ impl Resolver<'_> {
         for (key, written) in [("area", &own.area), ("Iy", &own.iy), ("Iz", &own.iz)] {
             if written.is_none() {
                 let message = format!("the section of body `{}` has no `{key}`", name.value);
-                self.refuse(Code::MissingKey, section.span, message)
+                self.lacking(section.span, section.span, key, message)
                     .help("a section has `area`, `Iy`, `Iz`, and may have `J` and `fibres`");
             }
         }

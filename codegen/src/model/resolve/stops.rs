@@ -126,8 +126,9 @@ impl Resolver<'_> {
                 None
             }
             [Some(lower), Some(upper)] if lower >= upper => {
-                let [lower, upper] = [(&spec.lower, lower), (&spec.upper, upper)]
-                    .map(|(written, value)| self.as_written(written.as_ref(), value, is.dimension()));
+                let [lower, upper] = [(&spec.lower, lower), (&spec.upper, upper)].map(|(written, value)| {
+                    self.told_at(written.as_ref().map_or(span, |written| written.span), value, is.dimension())
+                });
                 let message =
                     format!("stop `{}`: `lower` is {lower}, which is not below `upper`, {upper}", name.value);
                 let at = limits[0].as_ref().map_or(name.span, |limit| limit.span);

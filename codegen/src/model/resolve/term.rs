@@ -52,8 +52,8 @@ impl Resolver<'_> {
                 if of_a != of_b {
                     let verb = if operator == Operator::Add { "added to" } else { "taken from" };
                     let message = format!("{} cannot be {verb} {}", of_b.description(), of_a.description());
-                    self.refuse_in(here, Code::UnitMismatch, &message)
-                        .help("give both the same kind of unit");
+                    let help = self.one_kind(&sides);
+                    self.refuse_in(here, Code::UnitMismatch, &message).help(help);
                     return None;
                 }
                 let term = if operator == Operator::Add { Term::Add(a, b) } else { Term::Sub(a, b) };
