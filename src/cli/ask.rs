@@ -12,7 +12,7 @@ use linkwear_runtime::{Run, Watch};
 use serde_json::{Value, json};
 
 use super::arguments::{Arguments, Command};
-use super::failure::{Failure, entries, message_and_cure};
+use super::failure::{Failure, entries, first_paragraph};
 #[cfg(feature = "page")]
 use super::page;
 use super::{check, fit, input, life, plan, predict, simulate, study};
@@ -297,8 +297,8 @@ fn parsed(subcommand: &str, words: &[String], file: &str) -> Result<Command, Fai
     let tail = ["--", file].map(str::to_owned);
     let parsed = Arguments::try_parse_from(head.iter().chain(words).chain(&tail));
     parsed.map(|parsed| parsed.command).map_err(|error| {
-        let (message, cure) = message_and_cure(&error.render().to_string());
-        Failure::usage(message, cure)
+        let text = error.render().to_string();
+        Failure::usage(first_paragraph(&text), text.trim_end())
     })
 }
 

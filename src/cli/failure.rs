@@ -374,33 +374,22 @@ pub fn wrong_arguments(error: &clap::Error, format: Format) -> ExitCode {
         };
     }
     let text = error.render().to_string();
-    let (message, cure) = match error.kind() {
-        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => {
-            ("no subcommand given".to_owned(), text.trim_end().to_owned())
-        }
-        _ => message_and_cure(&text),
+    let message = match error.kind() {
+        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
+        _ => first_paragraph(&text),
     };
-    Failure::usage(message, cure).report(format)
+    Failure::usage(message, text.trim_end()).report(format)
 }
 
-/// What clap says is wrong, in one line; its tips and usage lines.
-pub(super) fn message_and_cure(text: &str) -> (String, String) {
-    let (wrong, cure) = text.trim().split_once("\n\n").unwrap_or((text, "try '--help'"));
-    let wrong = wrong.lines().map(str::trim).collect::<Vec<_>>().join(" ");
-    (wrong.trim_start_matches("error: ").to_owned(), cure.trim().to_owned())
+/// What clap says before its usage lines, in one line.
+pub(super) fn first_paragraph(text: &str) -> String {
+    let lines = text.lines().map(str::trim).take_while(|line| !line.is_empty());
+    lines.collect::<Vec<_>>().join(" ").trim_start_matches("error: ").to_owned()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn wrong_words_are_told_apart_from_their_cure() {
-        let text = "error: not there:\n  <FILE>\n\n  tip: look\n\nUsage: linkwear\n";
-        let (message, cure) = message_and_cure(text);
-        assert_eq!((message.as_str(), cure.as_str()), ("not there: <FILE>", "tip: look\n\nUsage: linkwear"));
-        assert_eq!(message_and_cure("error: no\n"), ("no".to_owned(), "try '--help'".to_owned()));
-    }
 
     #[test]
     fn a_near_name_is_suggested_and_a_far_one_lists_all() {

@@ -110,10 +110,7 @@ fn wrong_usage_exits_with_2_and_says_so_in_json_too() {
 
         let answer = linkwear(&[case, &["--format", "json"][..]].concat());
         assert_eq!(answer.code, 2, "{case:?}");
-        let error = &answer.errors()[0];
-        assert_eq!(error["code"], "C0001", "{case:?}");
-        let [message, help] = ["message", "help"].map(|key| error[key].as_str().expect("a text"));
-        assert!(!help.is_empty() && !help.contains(message), "{case:?}: {help}");
+        assert_eq!(answer.errors()[0]["code"], "C0001", "{case:?}");
     }
 }
 
