@@ -8,6 +8,22 @@ use super::doc::Doc;
 use super::texts::{tables, texts_of};
 use super::written::{At, Name, Pair, PerBody, Quantity};
 
+/// Kinds, and the keys that each needs besides, for the schema.
+#[cfg(test)]
+pub(super) const NEEDS_OF_KINDS: [(&str, &[&str]); 11] = [
+    ("cylindrical", &["axis"]),
+    ("distance", &["origin"]),
+    ("inline", &["axis"]),
+    ("inplane", &["axis"]),
+    ("on_surface", &["origin", "equation"]),
+    ("planar", &["axis"]),
+    ("prismatic", &["axis"]),
+    ("revolute", &["axis"]),
+    ("screw", &["axis", "lead"]),
+    ("slot", &["axis", "first"]),
+    ("universal", &["axes"]),
+];
+
 tables! {
     /// A joint: exactly one of the kinds, with the parent and the child.
     #[cfg_attr(test, schemars(extend("oneOf" = [

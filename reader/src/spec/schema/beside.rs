@@ -2,8 +2,10 @@
 
 use serde_json::{Value, json};
 
+use super::super::joint::NEEDS_OF_KINDS;
+
 /// A type, a key of it, and the keys that this one needs.
-const NEEDS: [(&str, &str, &[&str]); 20] = [
+const NEEDS: [(&str, &str, &[&str]); 9] = [
     ("BodySpec", "rod", &["radius"]),
     ("BodySpec", "tube", &["radius", "inner_radius"]),
     ("BodySpec", "box", &["width"]),
@@ -11,25 +13,15 @@ const NEEDS: [(&str, &str, &[&str]); 20] = [
     ("DryFrictionSpec", "at_rest", &["stribeck_speed"]),
     ("DryFrictionSpec", "stribeck_speed", &["at_rest"]),
     ("FlexibleSpec", "data", &["origin"]),
-    ("JointSpec", "cylindrical", &["axis"]),
-    ("JointSpec", "distance", &["origin"]),
-    ("JointSpec", "inline", &["axis"]),
-    ("JointSpec", "inplane", &["axis"]),
-    ("JointSpec", "on_surface", &["origin", "equation"]),
-    ("JointSpec", "planar", &["axis"]),
-    ("JointSpec", "prismatic", &["axis"]),
-    ("JointSpec", "revolute", &["axis"]),
-    ("JointSpec", "screw", &["axis", "lead"]),
-    ("JointSpec", "slot", &["axis", "first"]),
-    ("JointSpec", "universal", &["axes"]),
     ("MissionSpec", "bins", &["series"]),
     ("StopSpec", "law", &["impact_speed"]),
 ];
 
 /// Puts them into a type of the schema.
 pub(super) fn add_needs(name: &str, of: &mut Value) {
-    let needs = NEEDS.iter().filter(|(of, ..)| *of == name);
-    let each = needs.map(|(_, key, others)| {
+    let needs = NEEDS.iter().filter(|(of, ..)| *of == name).map(|(_, key, others)| (key, others));
+    let of_kinds = NEEDS_OF_KINDS.iter().filter(|_| name == "JointSpec").map(|(key, others)| (key, others));
+    let each = needs.chain(of_kinds).map(|(key, others)| {
         let known = &of["properties"];
         let is_key = |key: &str| known.get(key).is_some();
         assert!(is_key(key) && others.iter().all(|other| is_key(other)), "{name}.{key}");
