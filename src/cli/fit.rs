@@ -243,6 +243,10 @@ fn one_unit(arguments: &FitArguments, readings: &[Reading]) -> Failure {
 }
 
 fn no_fit(arguments: &FitArguments, (name, data): (&str, &Observations), error: FitError) -> Failure {
+    // Options that do not go together, whatever the data are.
+    if matches!(error, FitError::LargeError | FitError::NoResolution) {
+        return Failure::usage(error, cure(error, 2));
+    }
     let mut message =
         if arguments.groups.is_some() { format!("group {name}: {error}") } else { error.to_string() };
     // What such readings say all the same.

@@ -2,6 +2,7 @@
 
 #[cfg(feature = "page")]
 mod drawn;
+mod refused;
 mod text;
 
 use std::path::Path;
@@ -15,6 +16,7 @@ use linkwear_gamma::plan::{
 use linkwear_gamma::{FitFile, Prediction};
 use serde_json::{Value, json};
 
+use self::refused::refused;
 use super::answer::Answer;
 use super::answer::common::Ends;
 use super::answer::plan::{
@@ -69,9 +71,7 @@ pub fn by_fit(arguments: &PlanArguments, fit: FitFile) -> Result<Answer, Failure
 }
 
 fn answer(arguments: &PlanArguments, source: Source) -> Result<Answer, Failure> {
-    let wrong = |error: PlanError| {
-        Failure::data(&arguments.file, None, error, "see `linkwear plan --help` for what the options mean")
-    };
+    let wrong = |error: PlanError| refused(arguments, &error);
     let costs = Costs::new(arguments.preventive, arguments.failure)
         .and_then(|costs| costs.taking(arguments.preventive_time, arguments.failure_time))
         .map_err(wrong)?;
@@ -130,10 +130,8 @@ fn of_fit(arguments: &PlanArguments, fit: FitFile) -> Result<Source, Failure> {
     let file = &arguments.file;
     let Some(threshold) = arguments.threshold else { return Err(no_threshold()) };
     let estimate = fit.informed(&arguments.covariate).map_err(Failure::fit(file))?;
-    let asked = |error: LifeError| {
-        Failure::data(file, None, error, "see `linkwear plan --help` for what the options mean")
-    };
-    let state = OperatingState::of(&estimate, threshold, arguments.rate, (None, None)).map_err(asked)?;
+    let state = OperatingState::of(&estimate, threshold, arguments.rate, (None, None))
+        .map_err(|error| refused(arguments, &error.into()))?;
     Ok(Source::Fit(Box::new((estimate, state, fit))))
 }
 

@@ -141,23 +141,20 @@ fn asked_for(arguments: &PredictArguments, fit: &FitFile, estimate: Estimate) ->
 
 /// A unit of the fit: what has been read of it, its wear and its exposure now.
 fn now(arguments: &PredictArguments, fit: &FitFile, name: &str) -> Result<(SeenUnit, f64, f64), Failure> {
+    if arguments.current.is_some() != arguments.at.is_some() {
+        let message =
+            format!("of unit {name} either wear or exposure is given, and its last reading has both");
+        return Err(Failure::usage(message, "give --current and --at, or none"));
+    }
     let (mut seen, wear, exposure) = fit.unit(name).map_err(Failure::fit(&arguments.fit))?;
-    let refused = |message: String, help: &str| Err(Failure::data(&arguments.fit, None, message, help));
-    let (current, at) = match (arguments.current, arguments.at) {
-        (None, None) => return Ok((seen, wear, exposure)),
-        (Some(current), Some(at)) => (current, at),
-        _ => {
-            let message =
-                format!("of unit {name} either wear or exposure is given, and its last reading has both");
-            return refused(message, "give --current and --at, or none");
-        }
-    };
+    let Some((current, at)) = arguments.current.zip(arguments.at) else { return Ok((seen, wear, exposure)) };
     let falls = current <= wear && fit.process.is_increasing();
     if at <= exposure || falls || !current.is_finite() {
         let message = format!(
             "unit {name} was last read with wear {wear} at {exposure}: wear {current} at {at} does not go on from there"
         );
-        return refused(message, "give a later --at with more --current, or none of them");
+        let help = "give a later --at with more --current, or none of them";
+        return Err(Failure::data(&arguments.fit, None, message, help));
     }
     seen.spans.push([exposure, at]);
     seen.wear += current - wear;

@@ -147,8 +147,14 @@ pub fn other_joint(text: &str) -> Result<OtherJoint, String> {
     }
     numbers.reverse();
     let threshold = numbers.first().copied().filter(|wear| *wear > 0.0 && !file.is_empty());
+    let threshold = threshold.ok_or_else(wrong)?;
     let (current, at) = (numbers.get(1).copied(), numbers.get(2).copied());
-    Ok(OtherJoint { fit: PathBuf::from(file), threshold: threshold.ok_or_else(wrong)?, current, at })
+    if let Some(wear) = current.filter(|wear| *wear >= threshold) {
+        return Err(format!(
+            "the present wear {wear} has reached the threshold {threshold}: the joint has failed"
+        ));
+    }
+    Ok(OtherJoint { fit: PathBuf::from(file), threshold, current, at })
 }
 
 /// Two numbers, `A..B`, from 0 on and rising.
@@ -159,14 +165,26 @@ pub fn range(text: &str) -> Result<[f64; 2], String> {
     if range[0] < range[1] { Ok(range) } else { Err(wrong()) }
 }
 
+/// Two positive numbers, `A..B`, rising.
+pub fn positive_range(text: &str) -> Result<[f64; 2], String> {
+    let wrong = || "write A..B, two positive numbers, the smaller one first, as 0.5..2".to_owned();
+    range(text).ok().filter(|[from, _]| *from > 0.0).ok_or_else(wrong)
+}
+
 /// A part of one, as 0.01 or 1%, neither none nor all.
 pub fn part(text: &str) -> Result<f64, String> {
     let wrong = || "a part between 0 and 1 is needed, as 0.01 or 1%".to_owned();
-    match text.trim().strip_suffix('%') {
-        Some(percent) => within_one(&(positive(percent).map_err(|_| wrong())? / 100.0).to_string()),
-        None => within_one(text),
+    let percent = text.trim().strip_suffix('%').map(str::trim);
+    within_one(&percent.map_or_else(|| text.to_owned(), hundredth)).map_err(|_| wrong())
+}
+
+/// A hundredth of a number as it is written: a quotient would be rounded once more.
+fn hundredth(text: &str) -> String {
+    let (digits, power) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+    match power.parse::<i32>() {
+        Ok(power) => format!("{digits}e{}", power.saturating_sub(2)),
+        Err(_) => text.to_owned(),
     }
-    .map_err(|_| wrong())
 }
 
 /// A probability, neither 0 nor 1.
@@ -206,7 +224,7 @@ mod tests {
         assert_eq!(other_joint("a:b.json:0.5"), Ok(joint(0.5, None, None)));
         assert_eq!(other_joint("a:b.json:0.5:0"), Ok(joint(0.5, Some(0.0), None)));
         assert_eq!(other_joint("a:b.json:0.5:0.1:30"), Ok(joint(0.5, Some(0.1), Some(30.0))));
-        for bad in ["a.json", "a.json:", "a.json:0", "a.json:-1", ":0.5", "a.json:0.5:x"] {
+        for bad in ["a.json", "a.json:", "a.json:0", "a.json:-1", ":0.5", "a.json:0.5:x", "a.json:0.5:0.5"] {
             assert!(other_joint(bad).is_err(), "{bad}");
         }
     }
@@ -215,10 +233,21 @@ mod tests {
     fn ranges_rise_and_parts_are_parts() {
         assert_eq!(range("1.5..2"), Ok([1.5, 2.0]));
         for bad in ["1", "2..1", "1..1", "-1..2", "..", "1..nan", "1..inf"] {
-            assert!(range(bad).is_err(), "{bad}");
+            assert!(range(bad).is_err() && positive_range(bad).is_err(), "{bad}");
         }
-        assert_eq!(part("1%"), part("0.01"));
-        for bad in ["0", "1", "100%", "0%", "B1", "-1%"] {
+        assert!(range("0..2").is_ok() && positive_range("0..2").is_err());
+        assert_eq!(positive_range("1.5..2"), Ok([1.5, 2.0]));
+        for (percent, same) in [
+            ("1%", "0.01"),
+            // Their quotients by 100 are one step off.
+            ("99.99%", "0.9999"),
+            (" 0.07 %", "0.0007"),
+            ("1.1e1%", "0.11"),
+            ("7E-3%", "7e-5"),
+        ] {
+            assert_eq!(part(percent), Ok(same.parse().unwrap()), "{percent}");
+        }
+        for bad in ["0", "1", "100%", "0%", "B1", "-1%", "%", "1e%", "1ex%", "1%%", "nan%", "inf%"] {
             assert!(part(bad).is_err(), "{bad}");
         }
     }

@@ -156,6 +156,17 @@ fn a_fit_of_data_tells_what_it_leaves_open_and_its_readings_decide_how_much() {
 }
 
 #[test]
+fn an_interval_that_is_given_is_told_as_it_is() {
+    let folder = Folder::new("plan-interval");
+    let fit = folder.write("fit.json", FIT);
+    // By its logarithm 3 came out as 2.9999999999999996, 0.1 as 0.10000000000000002.
+    for interval in ["3.0", "0.1"] {
+        let told = plan(&fit, &["--threshold", "20", "--inspection", "5", "--interval", interval]);
+        assert_eq!(told["by_looks"]["interval"].to_string(), interval);
+    }
+}
+
+#[test]
 fn what_cannot_be_planned_is_refused_with_the_reason() {
     let folder = Folder::new("plan-wrong");
     let fit = folder.write("fit.json", FIT);
@@ -168,12 +179,18 @@ fn what_cannot_be_planned_is_refused_with_the_reason() {
     let (code, text) = refused(&[&[fit.as_str()], &costs[..]].concat());
     assert!(code == 2 && text.contains("--threshold"), "{text}");
     let (code, text) = refused(&[&fit, "--threshold", "20", "--preventive", "100", "--failure", "90"]);
-    assert!(code == 1 && text.contains("pays only where a failure costs more"), "{text}");
+    assert!(code == 2 && text.contains("pays only where a failure costs more"), "{text}");
+    let failed = ["--threshold", "20", "--look-at", "1", "--current", "20"];
+    let (code, text) = refused(&[&[fit.as_str()], &failed[..], &costs[..]].concat());
+    assert!(code == 2 && text.contains("present wear 20 has reached"), "{text}");
     let wiener = r#"{ "process": "wiener", "drift": 2.0, "spread": 1.0, "exponent": null }"#;
     let wiener = folder.write("wiener.json", wiener);
     let looks = [&[wiener.as_str(), "--threshold", "20", "--inspection", "5"], &costs[..]].concat();
-    let (code, text) = refused(&looks);
-    assert!(code == 1 && text.contains("never falls"), "{text}");
+    let look = [&[wiener.as_str(), "--threshold", "20", "--look-at", "5"], &costs[..]].concat();
+    for looks in [looks, look] {
+        let (code, text) = refused(&looks);
+        assert!(code == 1 && text.contains("never falls") && text.contains("--look-at"), "{text}");
+    }
     let lives = folder.write("lives.csv", "life [cycles]\n3\n4\n");
     let (code, text) = refused(&[&[lives.as_str(), "--inspection", "5"], &costs[..]].concat());
     assert!(code == 2 && text.contains("lives tell nothing of the wear"), "{text}");
@@ -191,7 +208,7 @@ fn what_cannot_be_planned_is_refused_with_the_reason() {
     assert!(code == 1 && text.contains("no random lives") && text.contains("--trajectories"), "{text}");
     let above = ["--threshold", "20", "--inspection", "5", "--replace-from", "21"];
     let (code, text) = refused(&[&[fit.as_str()], &above[..], &costs[..]].concat());
-    assert!(code == 1 && text.contains("from wear 21 on") && text.contains("--replace-from"), "{text}");
+    assert!(code == 2 && text.contains("from wear 21 on") && text.contains("--replace-from"), "{text}");
     let none = ["--threshold", "20", "--parts", "0", "--horizon", "5"];
     let (code, text) = refused(&[&[fit.as_str()], &none[..], &costs[..]].concat());
     assert!(code == 2 && text.contains("--parts") && text.contains("1..=1000000"), "{text}");

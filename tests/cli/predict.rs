@@ -148,8 +148,23 @@ fn questions_without_an_answer_are_refused() {
     let fit = lasers(&folder);
     let power = folder.write("power.json", r#"{"alpha": 27.5, "beta": 2.6, "exponent": 0.2}"#);
     let ask = |more: &[&str]| refusal(&[&["predict", "--format", "json"], more].concat()).0;
-    let message = ask(&[&fit, "--threshold", "4", "--current", "5"]);
-    assert!(message.contains("present wear 5 has reached the threshold 4"), "{message}");
+    // Wrong whatever the fit is: these were told as mistakes of its file.
+    let log = folder.write("log.csv", "t,w\n0,0\n1,2\n");
+    let readings = ["--inspections", &log, "--time", "t", "--wear", "w"];
+    for (more, cause) in [
+        (&["--threshold", "4", "--current", "5"][..], "present wear 5 has reached the threshold 4"),
+        (
+            &["--threshold", "9", "--also", &format!("{fit}:4:5")],
+            "present wear 5 has reached the threshold 4",
+        ),
+        (&["--threshold", "9", "--unit", "1", "--current", "5"], "give --current and --at, or none"),
+        (&[&["--threshold", "9", "--catalogue", "0..2"], &readings[..]].concat(), "two positive numbers"),
+    ] {
+        let wrong = linkwear(&[&["predict", &fit], more].concat());
+        assert!(wrong.code == 2 && wrong.err.contains(cause), "{more:?}: {}", wrong.err);
+    }
+    let message = ask(&[&[fit.as_str(), "--threshold", "2"], &readings[..]].concat());
+    assert!(message.contains("present wear 2 has reached the threshold 2"), "{message}");
     let message = ask(&[&power, "--threshold", "40", "--current", "5"]);
     assert!(message.contains("give the present exposure"), "{message}");
     let wrong = linkwear(&["predict", &fit]);

@@ -85,7 +85,7 @@ fn a_machine_fails_with_the_first_of_its_joints() {
     // The other joint has its own faults.
     let worn = format!("{right}:10:11");
     let answer = linkwear(&["predict", &left, "--threshold", "10", "--also", &worn]);
-    assert_eq!(answer.code, 1);
+    assert_eq!(answer.code, 2);
     assert!(answer.err.contains("right.json") && answer.err.contains("has failed"), "{}", answer.err);
     let twice = linkwear(&["predict", &left, "--threshold", "10", "--also", &format!("{left}:10")]);
     assert!(twice.out.contains("the same fit"), "{}", twice.out);

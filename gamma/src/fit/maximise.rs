@@ -2,6 +2,7 @@
 //! with them.
 
 use super::error::FitError;
+use super::exact::{hardly_scatters, has_no_scatter};
 use super::model::Model;
 use super::point::Point;
 use crate::data::{Increment, Known};
@@ -59,10 +60,12 @@ pub fn maximise(
     })
 }
 
-/// Why there is no maximum beyond `phi`: less scatter explains readings of a gauge as well, or some other parameter runs off.
+/// Why there is no maximum beyond `phi`: there is no scatter, less of it explains readings of a gauge as well, or some other
+/// parameter runs off.
 pub fn unbounded(model: &Model, increments: &[Increment], phi: &[f64]) -> FitError {
     if model.resolution.is_none() {
-        return FitError::NotConverged;
+        let is_exact = has_no_scatter(model, phi, increments);
+        return if is_exact { FitError::NoScatter } else { FitError::NotConverged };
     }
     let here = model.value(phi, increments);
     let mut less = phi.to_vec();
@@ -87,6 +90,8 @@ fn climb(
 ) -> Result<Point, FitError> {
     let mut here = model.point(phi, increments, held);
     let edge = held.and(model.units_differ.then(|| (phi.len() - 1, libm::log(LARGEST_CV))));
+    // Whether there is scatter at all: with a parameter held there was some.
+    let mut is_asked = held.is_some();
     for _ in 0..MOST_STEPS {
         let at_edge = edge.filter(|(cv, most)| phi[*cv] >= *most && here.gradient[*cv] > 0.0);
         let is_free = |at: &usize| Some(*at) != held && Some(*at) != at_edge.map(|(cv, _)| cv);
@@ -127,6 +132,12 @@ fn climb(
         }
         if model.ln_scatter(phi, increments) < 0.0 {
             return Err(FitError::ScatterBelowGauge);
+        }
+        if !is_asked && hardly_scatters(model, phi, increments) {
+            is_asked = true;
+            if has_no_scatter(model, phi, increments) {
+                return Err(FitError::NoScatter);
+            }
         }
     }
     Err(FitError::NotConverged)
@@ -182,6 +193,39 @@ mod tests {
             // Newton ends at a gain of 1e-13, squared once more by its last step.
             for (found, logs) in phi.iter().zip(logs) {
                 assert!((found - logs).abs() < 1e-11, "{process:?}: {phi:?} {logs}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_climb_to_no_scatter_at_all_says_so() {
+        // Twelve increments 3 (to^c - from^c) load^b; c lies beside every exponent that the start tries.
+        let exact = |at: u32, c: f64, b: f64| {
+            let (from, load) = (f64::from(at % 4), f64::from(1 + at / 4));
+            let wear = 3.0 * ((from + 1.0).powf(c) - from.powf(c)) * load.powf(b);
+            let unit = (at / 4) as usize;
+            let ln_covariates = vec![load.ln()];
+            Increment { unit, from, to: from + 1.0, wear, ln_covariates, row: 0, ..Increment::default() }
+        };
+        let fitted = |model: &Model, increments: &[Increment]| {
+            start(model, increments).and_then(|phi| maximise(model, increments, &phi, None)).map(drop)
+        };
+        for process in PROCESSES {
+            let plain = Model { process, ..Model::default() };
+            let power = Model { power_law: true, ..plain };
+            for (c, b, model) in [
+                (0.7, 0.0, power),
+                // The start tries this one and passes over it.
+                (1.0, 0.0, power),
+                (1.0, 0.6, Model { covariates: 1, ..plain }),
+                (1.0, 0.6, Model { sizes: 1, ..plain }),
+                (0.7, 0.6, Model { covariates: 1, ..power }),
+            ] {
+                let mut increments: Vec<Increment> = (0..12).map(|at| exact(at, c, b)).collect();
+                assert_eq!(fitted(&model, &increments), Err(FitError::NoScatter), "{model:?} {c} {b}");
+                // A scatter of a hundredth is one.
+                increments.iter_mut().step_by(3).for_each(|one| one.wear *= 1.01);
+                assert_eq!(fitted(&model, &increments), Ok(()), "{model:?} {c} {b}");
             }
         }
     }

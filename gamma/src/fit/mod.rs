@@ -11,6 +11,7 @@ mod drawn_falls;
 mod drawn_units;
 mod error;
 mod estimate;
+mod exact;
 mod few_increments;
 mod few_units;
 mod goodness;

@@ -54,13 +54,15 @@ pub fn best_inspection(
 ) -> Result<ConditionPlan, PlanError> {
     positive("the cost of an inspection", looks.inspection)?;
     let grid = Grid::new(part, interval, threshold)?;
+    // One that is given is taken as it is, digit by digit.
+    let told = |log: f64| interval.unwrap_or_else(|| libm::exp(log));
     // The most looks that a life can have: if they can be counted, all can.
-    part.cost(costs, looks, libm::exp(grid.logs[0]), grid.levels[grid.levels.len() - 1])?;
+    part.cost(costs, looks, told(grid.logs[0]), grid.levels[grid.levels.len() - 1])?;
     let rate = |log: f64, level: f64| part.rate((costs, looks), libm::exp(log), level);
     let tops = grid.rivals(part, (costs, looks));
-    let told = tops.into_iter().map(|(_, log, level)| (rate(log, level), log, level));
+    let known = tops.into_iter().map(|(_, log, level)| (rate(log, level), log, level));
     let mut best =
-        told.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, grid.logs[0], part.failure()));
+        known.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, grid.logs[0], part.failure()));
     let Grid { logs, levels, .. } = &grid;
     for _ in 0..TURNS {
         let before = best.0;
@@ -85,7 +87,7 @@ pub fn best_inspection(
     }
     let (_, log, threshold) = best;
     let near = |end: Option<&f64>| end.is_some_and(|end| (log - end).abs() < 1e-3);
-    let chosen = libm::exp(log);
+    let chosen = told(log);
     Ok(ConditionPlan {
         interval: chosen,
         threshold,

@@ -45,7 +45,7 @@ pub enum PlanError {
     NoParts,
     /// Wear that falls now and then.
     #[error(
-        "a threshold for replacement is computed for wear that never falls; a Wiener process may fall: fit a Gamma or an inverse Gaussian process, or plan by age"
+        "looks are computed for wear that never falls; by a Wiener process it may fall: fit a Gamma or an inverse Gaussian process, or plan by age alone, without --inspection and --look-at"
     )]
     FallingWear,
     /// Looks that follow each other so fast that a life has too many to count.

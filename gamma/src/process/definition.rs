@@ -174,6 +174,6 @@ impl Slice {
 }
 
 /// Whether a sum of squares is more than rounding, beside what it is a part of.
-pub(super) fn scatters(squares: f64, scale: f64) -> bool {
+pub(crate) fn scatters(squares: f64, scale: f64) -> bool {
     squares > 1e-24 * scale
 }

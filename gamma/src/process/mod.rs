@@ -12,6 +12,7 @@ mod random_effect;
 mod reference;
 mod wiener;
 
+pub(crate) use definition::scatters;
 pub use definition::{Process, Slice, Term};
 pub use gamma::Gamma;
 pub use inverse_gaussian::InverseGaussian;

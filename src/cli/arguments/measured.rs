@@ -10,7 +10,8 @@ use linkwear_gamma::process::{PROCESSES, Process};
 use super::super::calendar::Calendar;
 use super::super::options::Replace;
 use super::super::value::{
-    OtherJoint, covariate, from_zero, limit, one_of, other_joint, output, part, positive, range, within_one,
+    OtherJoint, covariate, from_zero, limit, one_of, other_joint, output, part, positive, positive_range,
+    range, within_one,
 };
 
 #[derive(Debug, Args)]
@@ -56,7 +57,7 @@ pub struct PredictArguments {
     pub particles: u32,
     /// Beside the readings nothing is known but the mean wear per unit of exposure, which a catalogue gives as A to B; it lies
     /// within with 95 %. The fit gives the form.
-    #[arg(long, value_name = "A..B", value_parser = range, requires = "inspections", conflicts_with_all = ["gauge", "flat_prior"])]
+    #[arg(long, value_name = "A..B", value_parser = positive_range, requires = "inspections", conflicts_with_all = ["gauge", "flat_prior"])]
     pub catalogue: Option<[f64; 2]>,
     /// For how long it has gone on since then without failing, its wear unseen: everything is told from the end of that time.
     #[arg(long, value_name = "TIME", value_parser = from_zero, default_value = "0", hide_default_value = true, allow_negative_numbers = true)]
