@@ -150,7 +150,7 @@ tables! {
         /// [1; above 0, up to 1; default 1; e.g. 0.9]
         pub restitution: Option<Quantity>,
         /// Exponent of penetration.
-        /// [1; above 0; default 1.5; e.g. 1.5]
+        /// [1; from 1; default 1.5; e.g. 1.5]
         pub exponent: Option<Quantity>,
         /// Least impact speed that damping is related to.
         /// [m/s; above 0; default 1 mm/s; e.g. "1 mm/s"]
@@ -161,7 +161,7 @@ tables! {
         /// Coefficient of friction at rest (Stribeck).
         /// [1; from 0; default that at high speed; e.g. 0.08]
         pub static_friction: Option<Quantity>,
-        /// Stribeck speed.
+        /// Stribeck speed, beside `static_friction`.
         /// [m/s; above 0; default 10 mm/s; e.g. "10 mm/s"]
         pub stribeck_speed: Option<Quantity>,
         /// Growth of the coefficient of friction with sliding speed.

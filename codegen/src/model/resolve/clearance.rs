@@ -240,6 +240,12 @@ impl Resolver<'_> {
                 format!("the coefficient of restitution of joint `{}` is {}", name.value, laws.restitution);
             self.refuse(Code::BadClearance, given.span, message).help("it lies above 0, and at most at 1");
         }
+        // What is not above zero has been reported already.
+        if let (Some(given), true) = (&own.exponent, laws.exponent > 0.0 && laws.exponent < 1.0) {
+            let message = format!("`exponent` of joint `{}` is {}", name.value, laws.exponent);
+            self.refuse(Code::BadClearance, given.span, message)
+                .help("it is at least 1: 1.5 for a ball in a socket, 1 for a layer of rubber or plastic");
+        }
         laws
     }
 
@@ -247,6 +253,12 @@ impl Resolver<'_> {
         if own.friction.is_none() {
             self.only_with_friction(name, own);
             return None;
+        }
+        if let (Some(written), None) = (&own.stribeck_speed, &own.static_friction) {
+            let message =
+                format!("`stribeck_speed` of joint `{}` has no effect without `static_friction`", name.value);
+            self.refuse(Code::BadClearance, written.span, message)
+                .help("add `static_friction = 0.1`, the coefficient at rest, or leave this out");
         }
         let mut number = |key: &str, written: Option<&Quantity>, dimension, zero_allowed, default| {
             self.number(name, (key, written), dimension, zero_allowed, default)
