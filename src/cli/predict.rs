@@ -149,7 +149,7 @@ fn now(arguments: &PredictArguments, fit: &FitFile, name: &str) -> Result<(SeenU
     let (mut seen, wear, exposure) = fit.unit(name).map_err(Failure::fit(&arguments.fit))?;
     let Some((current, at)) = arguments.current.zip(arguments.at) else { return Ok((seen, wear, exposure)) };
     let falls = current <= wear && fit.process.is_increasing();
-    if at <= exposure || falls || !current.is_finite() {
+    if at <= exposure || falls {
         let message = format!(
             "unit {name} was last read with wear {wear} at {exposure}: wear {current} at {at} does not go on from there"
         );

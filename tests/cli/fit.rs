@@ -360,9 +360,13 @@ fn readings_are_rounded_to_the_step_of_the_gauge() {
     let alone = linkwear(&[&["fit", &file], &COLUMNS[..], &["--gauge", "0.2"]].concat());
     assert!(alone.code == 2 && alone.err.contains("--resolution"), "{}", alone.err);
     // Options that do not go together, whatever the data are: these were told as mistakes of the file.
-    for more in [["--process", "wiener"], ["--gauge", "51"]] {
+    for (more, words) in [
+        (["--process", "wiener"], ["only the Gamma process", "leave --process or --resolution out"]),
+        (["--gauge", "51"], ["than a hundred times its resolution", "a --resolution of a tenth of --gauge"]),
+    ] {
         let wrong = linkwear(&[&["fit", &file], &COLUMNS[..], &["--resolution", "0.5"], &more[..]].concat());
         assert!(wrong.code == 2 && wrong.err.contains("C0001"), "{more:?}: {}", wrong.err);
+        assert!(words.iter().all(|words| wrong.err.contains(words)), "{more:?}: {}", wrong.err);
     }
     let off =
         linkwear(&[&["fit", &file], &COLUMNS[..], &["--resolution", "0.3", "--format", "json"]].concat());

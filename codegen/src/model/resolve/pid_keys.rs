@@ -165,26 +165,23 @@ impl Resolver<'_> {
         draft: Draft<'_>,
         unit: Dimension,
     ) -> Option<[Option<Formula>; 2]> {
-        let Draft { name, span, spec, .. } = draft;
+        let Draft { name, spec, .. } = draft;
         let mut limit = |key: &str, written: &Option<Quantity>| {
             let own = written.as_ref();
             own.map(|own| self.formula(own, Some(unit), Allowed::STATE, &place(key, "controller", name)))
         };
         let limits = [limit("lower", &spec.lower), limit("upper", &spec.upper)];
-        if let [Some(lower), Some(upper)] = &limits {
-            let [least, most] = [lower, upper].map(|limit| self.value(limit));
-            if least >= most {
-                let [least, most] = [(&spec.lower, least), (&spec.upper, most)].map(|(written, value)| {
-                    self.told_at(written.as_ref().map_or(span, |written| written.span), value, unit)
-                });
-                let message = format!(
-                    "controller `{}`: `lower` is {least}, which is not below `upper`, {most}",
-                    name.value
-                );
-                self.refuse(Code::BadController, lower.span, message)
-                    .help("the output stays between them: swap them, or mind the signs");
-                return None;
-            }
+        if let [Some(lower), Some(upper)] = &limits
+            && self.value(lower) >= self.value(upper)
+        {
+            let [least, most] = [lower, upper].map(|limit| self.told(limit));
+            let message = format!(
+                "controller `{}`: `lower` is {least}, which is not below `upper`, {most}",
+                name.value
+            );
+            self.refuse(Code::BadController, lower.span, message)
+                .help("the output stays between them: swap them, or mind the signs");
+            return None;
         }
         Some(limits)
     }

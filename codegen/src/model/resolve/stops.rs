@@ -116,8 +116,7 @@ impl Resolver<'_> {
             Some(self.formula(written, Some(is.dimension()), Allowed::PARAMETERS, &what))
         };
         let limits = [limit("lower", &spec.lower), limit("upper", &spec.upper)];
-        let values = limits.each_ref().map(|limit| limit.as_ref().map(|limit| self.value(limit)));
-        match values {
+        match &limits {
             [None, None] => {
                 let message = format!("stop `{}` has neither `lower` nor `upper`", name.value);
                 let example = if is == Coordinate::Angle { "30 deg" } else { "120 mm" };
@@ -125,14 +124,11 @@ impl Resolver<'_> {
                     .help(format!("add `upper = \"{example}\"`, where the coordinate meets the stop"));
                 None
             }
-            [Some(lower), Some(upper)] if lower >= upper => {
-                let [lower, upper] = [(&spec.lower, lower), (&spec.upper, upper)].map(|(written, value)| {
-                    self.told_at(written.as_ref().map_or(span, |written| written.span), value, is.dimension())
-                });
+            [Some(lower), Some(upper)] if self.value(lower) >= self.value(upper) => {
+                let [least, most] = [lower, upper].map(|limit| self.told(limit));
                 let message =
-                    format!("stop `{}`: `lower` is {lower}, which is not below `upper`, {upper}", name.value);
-                let at = limits[0].as_ref().map_or(name.span, |limit| limit.span);
-                self.refuse(Code::BadStop, at, message)
+                    format!("stop `{}`: `lower` is {least}, which is not below `upper`, {most}", name.value);
+                self.refuse(Code::BadStop, lower.span, message)
                     .help("the coordinate is free between them: swap them, or mind the signs");
                 None
             }
