@@ -130,6 +130,12 @@ pub trait Problem {
         0.0
     }
 
+    /// Lessens the errors of a step, by any measure, where they are of vibrations that it passes over and forgets: from one radian in
+    /// `reach` [s] on, by as many.
+    fn pass_over(&self, reach: f64, error: &mut [f64]) {
+        let _ = (reach, error);
+    }
+
     /// The component that is the slope of this one, if there is such.
     fn follows(&self, index: usize) -> Option<usize> {
         let _ = index;

@@ -96,6 +96,19 @@ impl ModalSizes {
         }
     }
 
+    /// See [`crate::integrate::Problem::pass_over`]. Deflections that loops stand on keep their errors: what a step adds to them may come
+    /// from where the bodies are, and is not forgotten.
+    pub(super) fn pass_over(&self, reach: f64, (coordinates, speeds): (&mut [f64], &mut [f64])) {
+        for mode in self.held().filter(|mode| mode.share >= 1.0) {
+            let squared = reach * reach * mode.stiffness;
+            if squared > 1.0 {
+                let passed = squared.sqrt();
+                coordinates[mode.coordinate] /= passed;
+                speeds[mode.speed] /= passed;
+            }
+        }
+    }
+
     /// As [`crate::Evaluator::visit_memory`].
     pub(super) fn visit_memory(&mut self, visit: &mut dyn FnMut(&mut f64)) {
         visit(&mut self.load);

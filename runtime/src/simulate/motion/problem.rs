@@ -149,6 +149,10 @@ impl Problem for ConstrainedMotion<'_> {
         self.modal.fastest()
     }
 
+    fn pass_over(&self, reach: f64, error: &mut [f64]) {
+        self.modal.pass_over(reach, error.split_at_mut(self.coordinates));
+    }
+
     fn follows(&self, index: usize) -> Option<usize> {
         let mut groups = self.dynamics.evaluator.layout().free();
         let group =
