@@ -75,8 +75,8 @@ pub trait Method {
     /// The last accepted step is taken back: what belongs to its beginning counts again.
     fn take_back(&mut self);
 
-    /// State at part `s` of the last accepted step.
-    fn interpolate(&self, s: f64, y: &mut [f64]);
+    /// States at parts `s` of the last accepted step, side by side.
+    fn interpolate<const N: usize>(&self, s: [f64; N], y: &mut [[f64; N]]);
 
     /// Steps that an implicit method took, where there is one besides.
     fn implicit_steps(&self) -> u64 {
@@ -316,7 +316,12 @@ impl<M: Method> Adaptive<M> {
 
     /// The state at a time within the last accepted step.
     pub fn interpolate(&self, t: f64, y: &mut [f64]) {
-        self.method.interpolate((t - self.before()) / self.control.last_step(), y);
+        self.interpolate_several([t], y.as_chunks_mut().0);
+    }
+
+    /// The same at several times, side by side.
+    pub(crate) fn interpolate_several<const N: usize>(&self, times: [f64; N], y: &mut [[f64; N]]) {
+        self.method.interpolate(times.map(|t| (t - self.before()) / self.control.last_step()), y);
     }
 
     /// Part of the sizes that the error of a step may have.

@@ -32,12 +32,20 @@ impl Cubics {
         self.0.iter_mut().flatten().for_each(visit);
     }
 
-    /// State at part `s` of the step; `further(i)` bends component i by a fourth power.
-    pub(super) fn at(&self, s: f64, y: &mut [f64], further: impl Fn(usize) -> f64) {
-        let r = 1.0 - s;
-        for (i, value) in y.iter_mut().enumerate() {
+    /// States at parts `s` of the step, side by side; `further(i)` bends component i by a fourth power.
+    pub(super) fn at<const N: usize>(
+        &self,
+        s: [f64; N],
+        y: &mut [[f64; N]],
+        further: impl Fn(usize) -> f64,
+    ) {
+        for (i, values) in y.iter_mut().enumerate() {
             let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.0[k][i]);
-            *value = a + s * (b + r * (c + s * (d + r * further(i))));
+            let further = further(i);
+            *values = s.map(|s| {
+                let r = 1.0 - s;
+                a + s * (b + r * (c + s * (d + r * further)))
+            });
         }
     }
 }

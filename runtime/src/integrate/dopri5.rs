@@ -155,7 +155,7 @@ impl Method for Dopri5 {
         self.cubics.visit_memory(visit);
     }
 
-    fn interpolate(&self, s: f64, y: &mut [f64]) {
+    fn interpolate<const N: usize>(&self, s: [f64; N], y: &mut [[f64; N]]) {
         self.cubics.at(s, y, |i| self.quartic[i]);
     }
 }

@@ -1,7 +1,7 @@
 //! What an explicit method integrates.
 
 use crate::error::RunError;
-use crate::system::StepOf;
+use crate::system::{STATES, StepOf};
 
 /// What came of a step that was asked for in one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -27,21 +27,34 @@ pub struct Beside<'a> {
 }
 
 impl Beside<'_> {
-    /// Writes the derivative at each, one behind the other. `state`: storage for one.
+    /// Length of a row with a number for every state: as many are evaluated at once, up to whole groups.
+    pub(crate) fn row(others: usize) -> usize {
+        (others + 1).next_multiple_of(STATES)
+    }
+
+    /// Writes the derivatives row by row. `storage`: for a state and its derivative.
     pub(crate) fn one_by_one(
         &self,
-        state: &mut [f64],
+        storage: &mut [f64],
         derivatives: &mut [f64],
         mut derivative: impl FnMut(f64, &[f64], &mut [f64]) -> Result<(), RunError>,
     ) -> Result<(), RunError> {
+        let (state, slope) = storage.split_at_mut(self.y.len());
+        let row = Self::row(self.others.len());
+        let mut write = |column: usize, slope: &[f64]| {
+            let rows = derivatives.chunks_exact_mut(row);
+            rows.zip(slope).for_each(|(row, value)| row[column] = *value);
+        };
         state.copy_from_slice(self.y);
-        let mut slopes = derivatives.chunks_exact_mut(self.y.len());
-        for ((place, other), slope) in self.others.iter().enumerate().zip(&mut slopes) {
+        for (place, other) in self.others.iter().enumerate() {
             state[place] = *other;
             derivative(self.t, state, slope)?;
             state[place] = self.y[place];
+            write(place, slope);
         }
-        slopes.next().map_or(Ok(()), |slope| derivative(self.later, state, slope))
+        derivative(self.later, state, slope)?;
+        write(self.others.len(), slope);
+        Ok(())
     }
 }
 
@@ -53,18 +66,18 @@ pub trait Problem {
     /// If it has no value there; an adaptive method then tries a shorter step.
     fn derivative(&mut self, t: f64, y: &[f64], derivative: &mut [f64]) -> Result<(), RunError>;
 
-    /// Writes `f` at states beside that of the last derivative, one behind the other: no part of the solution will come through them.
-    /// `state`: storage for one.
+    /// Writes `f` at states beside that of the last derivative: no part of the solution will come through them. Of every component a
+    /// row, with a number for each state. `storage`: for a state and its derivative.
     ///
     /// # Errors
     /// As [`Self::derivative`].
     fn derivatives(
         &mut self,
         beside: &Beside<'_>,
-        state: &mut [f64],
+        storage: &mut [f64],
         derivatives: &mut [f64],
     ) -> Result<(), RunError> {
-        beside.one_by_one(state, derivatives, |t, y, derivative| self.derivative(t, y, derivative))
+        beside.one_by_one(storage, derivatives, |t, y, derivative| self.derivative(t, y, derivative))
     }
 
     /// Writes the end of a step of the classical Runge-Kutta method, and the slope at its last inner stage where that is asked for, if it

@@ -122,7 +122,7 @@ impl Method for Rk43 {
         self.cubics.visit_memory(visit);
     }
 
-    fn interpolate(&self, s: f64, y: &mut [f64]) {
+    fn interpolate<const N: usize>(&self, s: [f64; N], y: &mut [[f64; N]]) {
         self.cubics.at(s, y, |_| 0.0);
     }
 }

@@ -279,11 +279,15 @@ impl Method for Rodas5P {
         self.system.forget();
     }
 
-    fn interpolate(&self, s: f64, y: &mut [f64]) {
-        let r = 1.0 - s;
-        for (i, value) in y.iter_mut().enumerate() {
-            let [a, b, c] = [0, 1, 2].map(|k| self.bends[k][i]);
-            *value = r * self.ends[0][i] + s * (self.ends[1][i] + r * (a + s * (b + s * c)));
+    fn interpolate<const N: usize>(&self, s: [f64; N], y: &mut [[f64; N]]) {
+        let ends = self.ends[0].iter().zip(&self.ends[1]);
+        let [a, b, c] = &self.bends;
+        let bends = a.iter().zip(b.iter().zip(c));
+        for (values, ((begin, end), (a, (b, c)))) in y.iter_mut().zip(ends.zip(bends)) {
+            *values = s.map(|s| {
+                let r = 1.0 - s;
+                r * begin + s * (end + r * (a + s * (b + s * c)))
+            });
         }
     }
 

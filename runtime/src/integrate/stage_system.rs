@@ -27,21 +27,23 @@ struct Follower {
 pub(super) struct StageSystem {
     /// Where the step begins that the derivatives are for.
     known_at: Option<f64>,
-    /// What each deciding component is in the state beside the begin that differs in it, and storage for such a state.
+    /// What each deciding component is in the state beside the begin that differs in it, and storage for such a state and its slopes.
     others: Vec<f64>,
-    state: Vec<f64>,
-    /// Slopes in those states, and then a little later; derivatives after that.
+    storage: Vec<f64>,
+    /// Reciprocals of the differences, that of the times last; zero to the end of a row.
+    per_widths: Vec<f64>,
+    /// Of every component a row: its slopes in those states, and then a little later; derivatives after that.
     slopes: Vec<f64>,
+    /// The last column of them.
+    by_time: Vec<f64>,
     followers: Vec<Follower>,
     /// The components that the matrix is of: one by one, and in runs of neighbours.
     rest: Vec<usize>,
     runs: Vec<Range<usize>>,
-    dimension: usize,
     /// `gamma h`.
     scale: f64,
-    /// Derivatives of the rest's slopes by every follower, and of the integrals' slopes by every component.
+    /// Derivatives of the rest's slopes by every follower.
     by_followers: Vec<f64>,
-    of_integrals: Vec<f64>,
     lu: Option<Lu>,
     right: Vec<f64>,
 }
@@ -65,31 +67,26 @@ impl StageSystem {
         if self.lu.is_none() {
             self.prepare(problem, step.y.len());
         }
-        let all = self.dimension;
-        let deciding = self.others.len();
         for (place, (other, value)) in self.others.iter_mut().zip(step.y).enumerate() {
             *other = value + DIFFERENCE * value.abs().max(problem.scale(place));
         }
         // Of a step however short the time is another one.
         let later = step.t + (DIFFERENCE * step.length).max(4.0 * f64::EPSILON * step.t.abs());
         let beside = Beside { t: step.t, y: step.y, others: &self.others, later };
-        problem.derivatives(&beside, &mut self.state, &mut self.slopes)?;
+        problem.derivatives(&beside, &mut self.storage, &mut self.slopes)?;
         // What the widths are after rounding.
         let widths = self.others.iter().zip(step.y).map(|(other, value)| other - value);
         let widths = widths.chain([later - step.t]);
-        for (column, width) in self.slopes.chunks_exact_mut(all).zip(widths) {
-            let per_width = 1.0 / width;
-            column.iter_mut().zip(slope).for_each(|(value, slope)| *value = (*value - slope) * per_width);
+        self.per_widths.iter_mut().zip(widths).for_each(|(reciprocal, width)| *reciprocal = 1.0 / width);
+        for (row, slope) in self.slopes.chunks_exact_mut(self.per_widths.len()).zip(slope) {
+            row.iter_mut().zip(&self.per_widths).for_each(|(value, per)| *value = (*value - slope) * per);
         }
-        self.of_integrals.clear();
-        for integral in deciding..all {
-            let columns = self.slopes.chunks_exact(all).take(deciding);
-            self.of_integrals.extend(columns.map(|column| column[integral]));
-        }
+        let rows = || self.slopes.chunks_exact(self.per_widths.len());
+        self.by_time.iter_mut().zip(rows()).for_each(|(value, row)| *value = row[self.others.len()]);
         self.by_followers.clear();
         for follower in &self.followers {
-            let column = &self.slopes[follower.component * all..][..all];
-            self.runs.iter().for_each(|run| self.by_followers.extend_from_slice(&column[run.clone()]));
+            let columns = self.runs.iter().flat_map(|run| rows().skip(run.start).take(run.len()));
+            self.by_followers.extend(columns.map(|row| row[follower.component]));
         }
         self.known_at = Some(step.t);
         Ok(())
@@ -110,23 +107,25 @@ impl StageSystem {
             .filter_map(|(component, of)| Some(Follower { component, of: place((*of)?)? }));
         self.followers = followers.collect();
         let size = self.rest.len();
-        self.dimension = dimension;
         self.others = vec![0.0; deciding];
-        self.state = vec![0.0; dimension];
-        self.slopes = vec![0.0; (deciding + 1) * dimension];
+        self.storage = vec![0.0; 2 * dimension];
+        self.per_widths = vec![0.0; Beside::row(deciding)];
+        self.slopes = vec![0.0; self.per_widths.len() * dimension];
+        self.by_time = vec![0.0; dimension];
         self.right = vec![0.0; size];
         self.lu = Some(Lu::new(size));
     }
 
     /// Factors the matrix for a step: `gamma h`.
     pub(super) fn factor(&mut self, scale: f64) {
-        let (all, size) = (self.dimension, self.rest.len());
+        let (row, size) = (self.per_widths.len(), self.rest.len());
         self.scale = scale;
         let per_scale = 1.0 / scale;
         let Some(lu) = &mut self.lu else { return };
         lu.factor_columns(|j, column| {
-            let slopes = &self.slopes[self.rest[j] * all..][..all];
-            of_runs(&self.runs, column, slopes, |place, slope| *place = -slope);
+            for (place, component) in column.iter_mut().zip(&self.rest) {
+                *place = -self.slopes[component * row + self.rest[j]];
+            }
             column[j] += per_scale;
             let mut by_followers = &self.by_followers[..];
             for follower in &self.followers {
@@ -141,13 +140,18 @@ impl StageSystem {
 
     /// Derivative of the slopes by time.
     pub(super) fn by_time(&self) -> &[f64] {
-        &self.slopes[self.others.len() * self.dimension..]
+        &self.by_time
     }
 
     /// Solves for the right-hand side `b`.
     pub(super) fn solve(&mut self, b: &[f64], solution: &mut [f64]) {
         let (size, deciding) = (self.rest.len(), self.others.len());
-        of_runs(&self.runs, &mut self.right, b, |right, b| *right = b);
+        let mut places = &mut self.right[..];
+        for run in &self.runs {
+            let (of_run, others) = places.split_at_mut(run.len());
+            of_run.copy_from_slice(&b[run.clone()]);
+            places = others;
+        }
         if size > 0 {
             for (follower, column) in self.followers.iter().zip(self.by_followers.chunks_exact(size)) {
                 add_scaled(&mut self.right, self.scale * b[follower.component], column);
@@ -166,19 +170,9 @@ impl StageSystem {
             solution[*component] = self.scale * (b[*component] + self.right[*of]);
         }
         let (state, integrals) = solution.split_at_mut(deciding);
-        let rows = self.of_integrals.chunks_exact(deciding.max(1));
+        let rows = self.slopes.chunks_exact(self.per_widths.len()).skip(deciding);
         for ((integral, row), b) in integrals.iter_mut().zip(rows).zip(&b[deciding..]) {
-            *integral = self.scale * (b + dot(row, state));
+            *integral = self.scale * (b + dot(&row[..deciding], state));
         }
-    }
-}
-
-/// What is done with every number and with that of all components which belongs to it: those of runs, one behind the other.
-#[inline(always)]
-fn of_runs(runs: &[Range<usize>], mut numbers: &mut [f64], all: &[f64], write: impl Fn(&mut f64, f64)) {
-    for run in runs {
-        let (of_run, others) = numbers.split_at_mut(run.len());
-        of_run.iter_mut().zip(&all[run.clone()]).for_each(|(number, value)| write(number, *value));
-        numbers = others;
     }
 }

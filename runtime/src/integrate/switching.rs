@@ -158,7 +158,7 @@ impl<const MODES: bool> Method for Switching<MODES> {
         }
     }
 
-    fn interpolate(&self, s: f64, y: &mut [f64]) {
+    fn interpolate<const N: usize>(&self, s: [f64; N], y: &mut [[f64; N]]) {
         if self.was_implicit { self.implicit.interpolate(s, y) } else { self.explicit.interpolate(s, y) }
     }
 

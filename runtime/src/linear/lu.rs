@@ -14,7 +14,8 @@ pub struct Lu {
     factors: Vec<Lanes>,
     /// What the rows below a pivot are of its row, zero at the others.
     multiples: Vec<Lanes>,
-    /// The same below the diagonal alone, and above it, zero elsewhere: four rows by four, column by column.
+    /// The same below the diagonal alone, and above it: four rows by four, column by column. On the diagonal the inverses of both, so
+    /// that a row need not wait for the one before.
     lower: Vec<Lanes>,
     upper: Vec<Lanes>,
     reciprocal_pivots: Vec<f64>,
@@ -102,6 +103,7 @@ impl Lu {
         smallest / most
     }
 
+    /// Factors as [`Self::solve`] goes through them: by blocks, of those on the diagonal the inverses.
     fn split(&mut self) {
         let blocks = self.work.len();
         let width = 4 * blocks;
@@ -109,16 +111,20 @@ impl Lu {
             let diagonal = k / 4;
             for (block, values) in column.iter().enumerate() {
                 let place = block * width + k;
-                let (lower, upper) = (&mut self.lower[place], &mut self.upper[place]);
                 match block.cmp(&diagonal) {
-                    Ordering::Less => *upper = *values,
-                    Ordering::Greater => *lower = *values,
-                    Ordering::Equal => {
-                        *lower = core::array::from_fn(|i| if i > k % 4 { values[i] } else { 0.0 });
-                        *upper = core::array::from_fn(|i| if i < k % 4 { values[i] } else { 0.0 });
-                    }
+                    Ordering::Less => self.upper[place] = *values,
+                    Ordering::Greater => self.lower[place] = *values,
+                    Ordering::Equal => {}
                 }
             }
+        }
+        let places = (0..blocks).map(|block| (4 * block, block * width + 4 * block));
+        for ((first, place), pivots) in places.zip(self.reciprocal_pivots.as_chunks::<4>().0) {
+            let columns = (first..first + 4).map(|k| self.factors.get(k * blocks + first / 4));
+            let mut tile = [[0.0; 4]; 4];
+            tile.iter_mut().zip(columns).for_each(|(column, known)| *column = *known.unwrap_or(&[0.0; 4]));
+            self.lower[place..place + 4].copy_from_slice(&inverse_of_lower(&tile));
+            self.upper[place..place + 4].copy_from_slice(&inverse_of_upper(&tile, pivots));
         }
     }
 
@@ -135,39 +141,62 @@ impl Lu {
             let (columns, _) = rows.as_chunks::<4>();
             let (solved, rest) = self.work.split_at_mut(block);
             let known = columns.iter().zip(&*solved);
-            let mut values = known.fold(rest[0], |values, (columns, known)| less(values, columns, known));
-            let [first, second, third, _] = columns[block];
-            values = without(values, &first, values[0]);
-            values = without(values, &second, values[1]);
-            rest[0] = without(values, &third, values[2]);
+            let values = known.fold(rest[0], |values, (columns, known)| less(values, columns, known));
+            rest[0] = times(&columns[block], &values);
         }
         for (block, rows) in self.upper.chunks_exact(width).enumerate().rev() {
             let (columns, _) = rows.as_chunks::<4>();
-            let pivots = &self.reciprocal_pivots[4 * block..][..4];
             let (rest, solved) = self.work.split_at_mut(block + 1);
-            let known = columns[block + 1..].iter().zip(&*solved);
-            let mut values = known.fold(rest[block], |values, (columns, known)| less(values, columns, known));
-            let [_, second, third, fourth] = columns[block];
-            values[3] *= pivots[3];
-            values = without(values, &fourth, values[3]);
-            values[2] *= pivots[2];
-            values = without(values, &third, values[2]);
-            values[1] *= pivots[1];
-            values = without(values, &second, values[1]);
-            values[0] *= pivots[0];
-            rest[block] = values;
+            // What was solved last comes last: nothing before waits for it.
+            let known = columns[block + 1..].iter().zip(&*solved).rev();
+            let values = known.fold(rest[block], |values, (columns, known)| less(values, columns, known));
+            rest[block] = times(&columns[block], &values);
         }
         b[..self.size].copy_from_slice(&self.work.as_flattened()[..self.size]);
     }
 }
 
+/// Of the ones on the diagonal and what is below, column by column.
+fn inverse_of_lower(tile: &[Lanes; 4]) -> [Lanes; 4] {
+    let mut inverse = [[0.0; 4]; 4];
+    for (j, column) in inverse.iter_mut().enumerate() {
+        column[j] = 1.0;
+        for k in j..3 {
+            for i in k + 1..4 {
+                column[i] -= tile[k][i] * column[k];
+            }
+        }
+    }
+    inverse
+}
+
+/// Of what is above the diagonal and on it, of which the reciprocals are given; zero for rows and columns without one.
+fn inverse_of_upper(tile: &[Lanes; 4], reciprocals: &Lanes) -> [Lanes; 4] {
+    let mut inverse = [[0.0; 4]; 4];
+    for (j, column) in inverse.iter_mut().enumerate() {
+        column[j] = 1.0;
+        for k in (0..=j).rev() {
+            column[k] *= reciprocals[k];
+            for i in 0..k {
+                column[i] -= tile[k][i] * column[k];
+            }
+        }
+    }
+    inverse
+}
+
 /// `values` less four columns, each times what is known.
 #[inline(always)]
 fn less(values: Lanes, columns: &[Lanes; 4], known: &Lanes) -> Lanes {
-    let values = without(values, &columns[0], known[0]);
-    let values = without(values, &columns[1], known[1]);
-    let values = without(values, &columns[2], known[2]);
-    without(values, &columns[3], known[3])
+    let products = times(columns, known);
+    core::array::from_fn(|i| values[i] - products[i])
+}
+
+/// Four columns, each times a value, in sums of two: no product waits for another one.
+#[inline(always)]
+fn times(columns: &[Lanes; 4], values: &Lanes) -> Lanes {
+    let [a, b, c, d] = columns;
+    core::array::from_fn(|i| (a[i] * values[0] + b[i] * values[1]) + (c[i] * values[2] + d[i] * values[3]))
 }
 
 #[inline(always)]

@@ -71,7 +71,12 @@ impl<'a> Looks<'a> {
     }
 
     /// Evaluates the forward dynamics of several flat states at once; whether the system can, and all are finite.
-    pub(super) fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, times: &[f64], states: &[f64]) -> bool {
+    pub(super) fn evaluate(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        times: &[f64; STATES],
+        states: &[[f64; STATES]],
+    ) -> bool {
         self.slopes.as_mut().is_some_and(|slopes| slopes.evaluate(evaluator, times, states))
     }
 

@@ -25,7 +25,7 @@ use crate::error::RunError;
 use crate::evaluate::LoopError;
 use crate::integrate::Problem;
 use crate::ledger::{Balance, Ledger, Shown};
-use crate::system::System;
+use crate::system::{STATES, System};
 use crate::watch::Watch;
 
 /// Recorder of one run.
@@ -54,8 +54,8 @@ pub(super) struct Sampler<'a> {
     looks: Option<Looks<'a>>,
     /// What answers them, once so many more were taken one by one.
     soon: Option<(&'a dyn System<f64>, usize)>,
-    /// Room for states within a step.
-    pub(super) within: Vec<f64>,
+    /// Room for states within a step, side by side.
+    pub(super) within: Vec<[f64; STATES]>,
     /// Time and state at the end of the last good step.
     pub(super) reached: (f64, Vec<f64>),
     /// Joints with clearance, where there are any.

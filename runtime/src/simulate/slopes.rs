@@ -33,24 +33,21 @@ impl<'a> Slopes<'a> {
         })
     }
 
-    /// States that are evaluated at once.
-    pub(super) const AT_ONCE: usize = STATES;
-
-    /// Evaluates up to [`Self::AT_ONCE`] flat states at their times; whether all that is told of them is finite.
-    pub(super) fn evaluate(&mut self, evaluator: &mut Evaluator<'_>, times: &[f64], states: &[f64]) -> bool {
-        let (state, all) = (self.sizes.coordinates + self.sizes.speeds, self.sizes.flat_state());
+    /// Evaluates flat states at their times, side by side; whether all that is told of them is finite.
+    pub(super) fn evaluate(
+        &mut self,
+        evaluator: &mut Evaluator<'_>,
+        times: &[f64; STATES],
+        states: &[[f64; STATES]],
+    ) -> bool {
+        let state = self.sizes.coordinates + self.sizes.speeds;
         let (known, asked) = self.question.split_at_mut(self.sizes.parameters);
         put_parameters(known, evaluator);
         let (time, asked) = asked.split_at_mut(1);
-        let rows: [&[f64]; STATES] = std::array::from_fn(|lane| {
-            // Places without a state ask for the first one again, and nobody reads what they give.
-            let row = if lane < times.len() { lane } else { 0 };
-            put_time((&mut known[self.inputs..], &mut time[0]), lane, evaluator, times[row]);
-            &states[row * all..][..state]
-        });
-        for (i, place) in asked[..state].iter_mut().enumerate() {
-            *place = rows.map(|row| row[i]);
+        for (lane, t) in times.iter().enumerate() {
+            put_time((&mut known[self.inputs..], &mut time[0]), lane, evaluator, *t);
         }
+        asked[..state].copy_from_slice(&states[..state]);
         self.ask()
     }
 
@@ -64,7 +61,7 @@ impl<'a> Slopes<'a> {
         finite == [0.0; STATES]
     }
 
-    /// Writes the slopes of flat states beside one, one behind the other; whether all are finite.
+    /// Writes the slopes of flat states beside one, of every component a row; whether all are finite.
     pub(super) fn write(
         &mut self,
         evaluator: &mut Evaluator<'_>,
@@ -74,6 +71,7 @@ impl<'a> Slopes<'a> {
         let Sizes { parameters, coordinates, speeds, .. } = self.sizes;
         let (state, all) = (coordinates + speeds, self.sizes.flat_state());
         let powers = self.answer.len() - (all - state);
+        let row = Beside::row(beside.others.len());
         let (known, asked) = self.question.split_at_mut(parameters);
         put_parameters(known, evaluator);
         let (time, asked) = asked.split_at_mut(1);
@@ -83,7 +81,7 @@ impl<'a> Slopes<'a> {
         asked.iter_mut().zip(&beside.y[..state]).for_each(|(place, value)| *place = [*value; STATES]);
         let count = beside.others.len();
         let mut finite = true;
-        for (group, slopes) in slopes.chunks_mut(STATES * all).enumerate() {
+        for group in 0..row / STATES {
             let here = group * STATES..((group + 1) * STATES).min(count);
             let others = here.clone().zip(&beside.others[here.clone()]);
             let (known, asked) = self.question.split_at_mut(parameters);
@@ -95,10 +93,9 @@ impl<'a> Slopes<'a> {
                 put_time((&mut known[self.inputs..], &mut time[0]), lane, evaluator, beside.later);
             }
             finite &= self.ask();
-            let (rates, powers) = (&self.answer[..state], &self.answer[powers..]);
-            for (lane, slope) in slopes.chunks_exact_mut(all).enumerate() {
-                let told = rates.iter().chain(powers);
-                slope.iter_mut().zip(told).for_each(|(place, value)| *place = value[lane]);
+            let told = self.answer[..state].iter().chain(&self.answer[powers..]);
+            for (row, values) in slopes.chunks_exact_mut(row).zip(told) {
+                row[group * STATES..][..STATES].copy_from_slice(values);
             }
             for place in here {
                 self.question[parameters + 1 + place] = [beside.y[place]; STATES];

@@ -9,10 +9,10 @@ use super::motion::ConstrainedMotion;
 use super::sampler::Sampler;
 use super::schedule::steps_between;
 use super::settings::Integrator;
-use super::slopes::Slopes;
 use super::{dead_point, events, samples, switches};
 use crate::error::RunError;
 use crate::integrate::{Adaptive, Dopri5, Method, Rk4, Rk43, Rodas5P, Switching};
+use crate::system::STATES;
 use crate::watch::Watch;
 
 /// A method under way.
@@ -262,22 +262,18 @@ pub(super) fn look_back<M: Method>(
 ) -> Result<(), RunError> {
     sampler.note_loop_error(motion, method.t(), motion.projector.loop_error())?;
     sampler.follow_angles(motion, method.t(), method.y(), Some(&|t, y| method.interpolate(t, y)))?;
-    let mut times = [0.0; Slopes::AT_ONCE];
     let mut states = std::mem::take(&mut sampler.within);
-    states.resize(times.len() * method.y().len(), 0.0);
+    states.resize(method.y().len(), [0.0; STATES]);
     let mut inner = sampler.between(motion, method.before(), method.t());
-    let length = method.y().len();
-    loop {
-        let mut count = 0;
-        for (time, t) in times.iter_mut().zip(inner.by_ref()) {
-            method.interpolate(t, &mut states[count * length..][..length]);
+    while let Some(first) = inner.next() {
+        // Places without a look repeat the first, and nobody reads what they give.
+        let (mut times, mut count) = ([first; STATES], 1);
+        for (time, t) in times[1..].iter_mut().zip(inner.by_ref()) {
             *time = t;
             count += 1;
         }
-        if count == 0 {
-            break;
-        }
-        sampler.look_at_several(motion, &times[..count], &states[..count * length])?;
+        method.interpolate_several(times, &mut states);
+        sampler.look_at_several(motion, (&times, count), &states)?;
     }
     sampler.within = states;
     Ok(())

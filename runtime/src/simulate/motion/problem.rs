@@ -33,7 +33,7 @@ impl Problem for ConstrainedMotion<'_> {
     fn derivatives(
         &mut self,
         beside: &Beside<'_>,
-        state: &mut [f64],
+        storage: &mut [f64],
         derivatives: &mut [f64],
     ) -> Result<(), RunError> {
         match self.alone.checked_sub(1) {
@@ -54,7 +54,7 @@ impl Problem for ConstrainedMotion<'_> {
                 // Without contacts.
                 if finite { Ok(()) } else { Err(self.infinite_power(beside.t, &[])) }
             }
-            _ => beside.one_by_one(state, derivatives, |t, y, slope| self.derivative(t, y, slope)),
+            _ => beside.one_by_one(storage, derivatives, |t, y, slope| self.derivative(t, y, slope)),
         };
         self.slopes = slopes;
         self.dynamics.resume(aside);

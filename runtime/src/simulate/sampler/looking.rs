@@ -9,6 +9,7 @@ use crate::integrate::Problem;
 use crate::simulate::extremes::Collector;
 use crate::simulate::looks::Looks;
 use crate::simulate::motion::{ConstrainedMotion, PROJECTED_STAGES};
+use crate::system::STATES;
 
 /// Times in a turn of the fastest body at which curves are looked at, at least: the peak of a tenth harmonic is then found
 /// to a part in a hundred of its size, of the first to a part in ten thousand.
@@ -95,26 +96,30 @@ impl<'a> Sampler<'a> {
         Ok(())
     }
 
-    /// The same of several flat states within a step, one behind the other: side by side where that gives the same.
+    /// The same of the first `count` of several flat states within a step: side by side where that gives the same.
     pub(in crate::simulate) fn look_at_several(
         &mut self,
         motion: &mut ConstrainedMotion<'_>,
-        times: &[f64],
-        states: &[f64],
+        (times, count): (&[f64; STATES], usize),
+        states: &[[f64; STATES]],
     ) -> Result<(), RunError> {
-        let length = states.len() / times.len().max(1);
         let known = self
             .looks
             .as_mut()
             .is_some_and(|looks| looks.evaluate(&mut motion.dynamics.evaluator, times, states));
-        for (lane, (t, state)) in times.iter().zip(states.chunks_exact(length)).enumerate() {
+        for (lane, t) in times.iter().enumerate().take(count) {
             if known
                 && let (Some(looks), Some(extremes)) = (&mut self.looks, &mut self.extremes)
                 && motion.dynamics.regularity(looks.pivots(lane)) >= PROJECTED_STAGES
             {
                 looks.look_at(&motion.dynamics.evaluator, (lane, *t), extremes);
             } else {
-                self.look(motion, (*t, state), None)?;
+                let mut state = std::mem::take(&mut self.inner);
+                state.clear();
+                state.extend(states.iter().map(|values| values[lane]));
+                let seen = self.look(motion, (*t, &state), None);
+                self.inner = state;
+                seen?;
             }
         }
         Ok(())
