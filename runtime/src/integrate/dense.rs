@@ -33,12 +33,7 @@ impl Cubics {
     }
 
     /// States at parts `s` of the step, side by side; `further(i)` bends component i by a fourth power.
-    pub(super) fn at<const N: usize>(
-        &self,
-        s: [f64; N],
-        y: &mut [[f64; N]],
-        further: impl Fn(usize) -> f64,
-    ) {
+    pub(super) fn at<const N: usize>(&self, s: [f64; N], y: &mut [[f64; N]], further: impl Fn(usize) -> f64) {
         for (i, values) in y.iter_mut().enumerate() {
             let [a, b, c, d] = [0, 1, 2, 3].map(|k| self.0[k][i]);
             let further = further(i);
