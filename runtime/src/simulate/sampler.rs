@@ -86,7 +86,7 @@ impl<'a> Sampler<'a> {
             // Without rows nobody asks for turns.
             angles: Angles::new(if schedule.samples > 0 { &columns.channels } else { &[] }),
             columns,
-            inner: Vec::new(),
+            inner: state.to_vec(),
             ledger,
             turning,
             guard,
