@@ -305,8 +305,10 @@ fn a_signal_while_a_large_file_is_written_leaves_nothing_half_written() {
         "--out",
         &out,
     ]);
-    // Its temporary file tells that the writing has begun.
-    while folder.names().len() == 1 && child.try_wait().expect("a child").is_none() {
+    // Bytes in its temporary file tell that the writing has begun: an empty one is made before the work, to see that it can be.
+    let is_written = |name: &str| fs::metadata(folder.path(name)).is_ok_and(|file| file.len() > 0);
+    let has_begun = || folder.names().iter().any(|name| name != "rows.csv" && is_written(name));
+    while !has_begun() && child.try_wait().expect("a child").is_none() {
         std::thread::yield_now();
     }
     let id = child.id().to_string();
