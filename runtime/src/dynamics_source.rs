@@ -4,6 +4,7 @@
 mod leaving;
 mod measuring;
 mod recurrence;
+mod returning;
 mod settings;
 mod settling;
 mod side_by_side;
@@ -26,6 +27,7 @@ use crate::wear::ContactMeasure;
 use leaving::leaves;
 use measuring::{Done, Measuring};
 use recurrence::Recurrence;
+use returning::Stand;
 pub use settings::RevolutionSettings;
 pub use settling::Orbit;
 use settling::Settling;
@@ -193,14 +195,15 @@ impl<'a> DynamicsSource<'a> {
             let ratio = (unworn + worn) / (unworn + before);
             far = far.max(ratio).max(1.0 / ratio);
         }
-        for _ in 0..from.map_or(recurrence.after, |orbit| orbit.lasting) {
+        for _ in 0..from.map_or(recurrence.after, |orbit| recurrence.every * orbit.lasting) {
             self.one_turn((0.0, 0.0))?;
         }
         if from.is_none() && recurrence.after > 0 {
             self.runner.rest_journals();
         }
         let settling = Settling::new(from, far, self.settings.settled());
-        Ok(Measuring::new(&self.settings, settling, self.wearing.rooms(joints), recurrence.every))
+        let begins = (Stand::of(&mut self.runner), self.wearing.rooms(joints));
+        Ok(Measuring::new(&self.settings, settling, begins, recurrence.every))
     }
 
     /// After how many turns drives and forces repeat; who says how turns are to be measured is not asked.
@@ -270,9 +273,10 @@ impl<'a> DynamicsSource<'a> {
             let turn = self.turn(measuring.next())?;
             let waits = self.settings.settle.is_none() && !self.slow.is_empty();
             if waits && !self.slow.have_settled(&mut self.runner, self.settings.settled())? {
+                measuring.pass(Stand::of(&mut self.runner));
                 continue;
             }
-            let is_done = measuring.take(turn, &self.wearing);
+            let is_done = measuring.take(turn, Stand::of(&mut self.runner), &self.wearing);
             let is_open = is_done && measuring.shows_nothing(&self.wearing);
             if is_done && !(is_open && leaves(&mut self.runner, measuring, self.watch)?) {
                 return Ok(());

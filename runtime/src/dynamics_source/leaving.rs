@@ -2,6 +2,7 @@
 //! again, elsewhere. Never looks at what turns wear.
 
 use super::measuring::Measuring;
+use super::returning::Stand;
 use super::stability;
 use crate::error::RunError;
 use crate::simulate::TurnRunner;
@@ -15,8 +16,8 @@ pub(super) fn leaves(
     watch: Watch<'_>,
 ) -> Result<bool, RunError> {
     let (from, _) = measuring.next();
-    let left = stability::leave(runner, watch.piece(from, from))?;
+    let left = stability::leave(runner, measuring.every(), watch.piece(from, from))?;
     let has_left = left.is_some();
-    measuring.is_tried(left);
+    measuring.is_tried(left, Stand::of(runner));
     Ok(has_left)
 }

@@ -1,6 +1,7 @@
 //! How a measurement goes from turn to turn. In: turns, as they are done. Out: whether one more is needed, and what they come to.
 //! Never runs one.
 
+use super::returning::Stand;
 use super::settings::RevolutionSettings;
 use super::settling::{Orbit, Settling};
 use super::stability::Left;
@@ -25,9 +26,11 @@ pub(super) struct Measuring {
     average: usize,
     /// How many are averaged at most where turns scatter.
     most: usize,
-    /// Whether what is measured are single turns.
-    are_single: bool,
+    /// How many of the driver's turns are measured as one.
+    every: u32,
     settling: Settling,
+    /// Where journals stood when its last turn ended.
+    stand: Stand,
     /// How much room journals have [m].
     rooms: Vec<f64>,
     stage: Stage,
@@ -60,14 +63,32 @@ pub(super) struct Done {
 }
 
 impl Measuring {
-    /// Of a motion that goes on from an orbit, or begins, with journals that have so much room [m]; what counts as a turn are so many
-    /// of the driver's.
-    pub fn new(settings: &RevolutionSettings, settling: Settling, rooms: Vec<f64>, every: u32) -> Self {
+    /// Of a motion that goes on from an orbit, or begins, with journals that stand so and have so much room [m]; what counts as a turn
+    /// are so many of the driver's.
+    pub fn new(
+        settings: &RevolutionSettings,
+        settling: Settling,
+        (stand, rooms): (Stand, Vec<f64>),
+        every: u32,
+    ) -> Self {
         let average = settings.average.max(1) as usize;
         let stage = if settings.settle == Some(0) { Stage::IsSettled } else { Stage::Settles };
         let (settle, last, turns) = (settings.settle, None, Vec::new());
-        let (most, are_single) = ((MOST_TO_AVERAGE / every.max(1) as usize).max(FEWEST), every <= 1);
-        Self { settle, average, most, are_single, settling, rooms, stage, done: 0, last, turns, doubts: None }
+        let most = (MOST_TO_AVERAGE / every.max(1) as usize).max(FEWEST);
+        Self {
+            settle,
+            average,
+            most,
+            every,
+            settling,
+            stand,
+            rooms,
+            stage,
+            done: 0,
+            last,
+            turns,
+            doubts: None,
+        }
     }
 
     /// The part of the measurement that the next turn is, from and to. Where nobody knows how many there will be, every turn is half of
@@ -80,9 +101,16 @@ impl Measuring {
         (part(self.done), part(self.done + 1))
     }
 
-    /// Takes a turn; whether it was the last one.
-    pub fn take(&mut self, turn: TurnMeasures, wearing: &Wearing<'_>) -> bool {
+    /// A turn that does not count has left journals there.
+    pub fn pass(&mut self, stand: Stand) {
+        self.stand = stand;
+    }
+
+    /// Takes a turn, and where it has left journals; whether it was the last one.
+    pub fn take(&mut self, turn: TurnMeasures, stand: Stand, wearing: &Wearing<'_>) -> bool {
         self.done += 1;
+        self.settling.moves(stand.from(&self.stand));
+        self.stand = stand;
         if let (Stage::Settles, None, Some(last)) = (self.stage, self.settle, &self.last) {
             if self.settling.has_settled([wearing.differs(last, &turn)].into_iter()) {
                 self.stage = Stage::IsSettled;
@@ -110,21 +138,31 @@ impl Measuring {
         count >= self.average && enough
     }
 
-    /// Whether it is done by turns that agreed at once, though nothing tells that the motion would come back to itself.
+    /// Whether it is done by turns that agree, though nothing tells that the motion would come back to itself.
     pub fn shows_nothing(&self, wearing: &Wearing<'_>) -> bool {
-        self.settle.is_none()
-            && self.are_single
-            && self.settling.shows_nothing(&self.rooms)
-            && self.turns.last().is_some_and(|turn| wearing.has_steady_load(turn))
+        let is_steady = || self.turns.last().is_some_and(|turn| wearing.has_steady_load(turn));
+        let is_short = self.every as usize <= MOST_TO_AVERAGE;
+        self.has_settled() && is_short && self.settling.shows_nothing(&self.rooms, is_steady)
     }
 
-    /// That was tried. If the motion has left, with what is doubtful about it, it is measured anew.
-    pub fn is_tried(&mut self, left: Option<Left>) {
+    /// How many of the driver's turns are measured as one.
+    pub const fn every(&self) -> u32 {
+        self.every
+    }
+
+    /// That was tried, and has left journals there. If the motion has left, with what is doubtful about it, it is measured anew.
+    pub fn is_tried(&mut self, left: Option<Left>, stand: Stand) {
         self.settling.is_tried(self.rooms.clone(), left.as_ref());
+        self.stand = stand;
         if let Some(Left { doubts, .. }) = left {
             (self.stage, self.done, self.last, self.doubts) = (Stage::Settles, 0, None, doubts);
             self.turns.clear();
         }
+    }
+
+    /// Whether turns have settled of themselves.
+    fn has_settled(&self) -> bool {
+        self.settle.is_none() && self.stage == Stage::IsSettled
     }
 
     /// What it has come to, at the end of its last turn.
@@ -132,7 +170,9 @@ impl Measuring {
         let steadiness = wearing.steadiness(self.last.as_ref(), &self.turns).collect();
         let measured = wearing.mean(&self.turns);
         let (contraction, lasting) = (self.settling.contraction(), self.settling.lasting());
-        let orbit = Orbit { turn, contraction, tried: self.settling.tried(self.rooms), lasting };
+        let tried =
+            if self.has_settled() { self.settling.tried(self.rooms) } else { self.settling.tried_before() };
+        let orbit = Orbit { turn, contraction, tried, lasting };
         Done { measured, steadiness, orbit, turns: self.turns, doubts: self.doubts }
     }
 }

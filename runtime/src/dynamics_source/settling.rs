@@ -4,6 +4,7 @@
 //! A motion settles by a factor a turn: of some fifty for a tight joint of the case study, of two or three for a loose one. So the
 //! difference of two turns tells that of the second from all later ones, once the factor is known.
 
+use super::returning::{Moved, growth};
 use super::stability::Left;
 use crate::linear::largest_of;
 use crate::simulate::TurnState;
@@ -25,8 +26,10 @@ const FORGETS: f64 = 0.25;
 const FAR: f64 = 0.2;
 const FAR_POWER: i32 = 4;
 
-/// Turns that come nearer to each other by this factor are those of a motion that comes back to itself.
+/// Journals that come nearer to where they stood a turn before by this factor are those of a motion that comes back to itself.
 const COMES_BACK: f64 = 0.5;
+/// The same in a motion of which nothing is known: it begins beside where it goes with much that dies in a turn, and hides a swing by it.
+const FIRST_COMES_BACK: f64 = 0.1;
 /// What was seen of that counts until a journal has so many times as much room: laws of contact go by it smoothly.
 const GROWN: f64 = 1.25;
 
@@ -56,6 +59,9 @@ pub(super) struct Settling {
     /// The largest seen.
     seen: Option<f64>,
     last: Option<f64>,
+    /// By how much the last turn left journals elsewhere than where it began, and how many times as much that is as of the turn before.
+    moved: Option<Moved>,
+    grown: Option<f64>,
     /// What is known of the motion's stability, and whether this measurement needs more.
     tried: Vec<f64>,
     lasting: u32,
@@ -68,7 +74,20 @@ impl Settling {
         let grown = if far > 1.0 + FAR { far.powi(FAR_POWER) } else { 1.0 };
         let known = from.map_or(1.0, |orbit| (grown * orbit.contraction).min(1.0));
         let tried = from.map_or_else(Vec::new, |orbit| orbit.tried.clone());
-        Self { settled, known, seen: None, last: None, tried, lasting: from.map_or(0, |orbit| orbit.lasting) }
+        let lasting = from.map_or(0, |orbit| orbit.lasting);
+        Self { settled, known, seen: None, last: None, moved: None, grown: None, tried, lasting }
+    }
+
+    /// A turn has left journals elsewhere than where it began by so much.
+    pub(super) fn moves(&mut self, by: Moved) {
+        self.grown = self.moved.map(|before| growth(before, by));
+        self.moved = Some(by);
+    }
+
+    /// Whether journals come nearer to where they stood a turn before.
+    fn comes_back(&self) -> bool {
+        let enough = if self.tried.is_empty() { FIRST_COMES_BACK } else { COMES_BACK };
+        self.grown.is_some_and(|factor| factor < enough)
     }
 
     /// Whether a turn counts that differs by these parts of its wear from the one before; what is no number has not settled.
@@ -88,12 +107,13 @@ impl Settling {
         self.last.is_some_and(|differs| differs <= NEARLY * self.settled)
     }
 
-    /// Whether the first two turns agreed at once, in a motion that was never seen to come back to itself where journals had so much
-    /// room [m].
-    pub(super) fn shows_nothing(&self, rooms: &[f64]) -> bool {
-        let agreed = self.seen.is_none() && self.last.is_some_and(|differs| differs <= self.settled);
+    /// Whether turns that have settled are those of a motion that was never seen to come back to itself where journals had so much room
+    /// [m]. Under a steady load they stand still with nothing but rounding to come back from.
+    pub(super) fn shows_nothing(&self, rooms: &[f64], is_steady: impl FnOnce() -> bool) -> bool {
         let grown = |(now, then): (&f64, &f64)| *now > GROWN * then;
-        agreed && (self.tried.len() != rooms.len() || rooms.iter().zip(&self.tried).any(grown))
+        let is_new = self.tried.len() != rooms.len() || rooms.iter().zip(&self.tried).any(grown);
+        let agreed = self.seen.is_none() && self.last.is_some_and(|differs| differs <= self.settled);
+        is_new && (!self.comes_back() || agreed && is_steady())
     }
 
     /// It was tried whether the motion comes back to itself with so much room [m]; where it has left, turns settle anew.
@@ -101,6 +121,7 @@ impl Settling {
         self.tried = rooms;
         if let Some(left) = left {
             (self.known, self.seen, self.last, self.lasting) = (1.0, None, None, left.lasting);
+            (self.moved, self.grown) = (None, None);
         }
     }
 
@@ -109,9 +130,14 @@ impl Settling {
         self.lasting
     }
 
-    /// With how much room [m] the motion was last seen to come back to itself, if it had so much now.
+    /// With how much room [m] the motion was last seen to come back to itself, where turns have settled that had so much.
     pub(super) fn tried(&self, rooms: Vec<f64>) -> Vec<f64> {
-        if self.seen.is_some_and(|factor| factor < COMES_BACK) { rooms } else { self.tried.clone() }
+        if self.comes_back() { rooms } else { self.tried_before() }
+    }
+
+    /// The same where they have not.
+    pub(super) fn tried_before(&self) -> Vec<f64> {
+        self.tried.clone()
     }
 
     /// The factor to go on with.

@@ -5,9 +5,10 @@ use std::collections::VecDeque;
 
 use super::leaving::leaves;
 use super::measuring::Measuring;
+use super::returning::Stand;
 use super::wearing::Wearing;
 use crate::error::RunError;
-use crate::simulate::{LOOKS_EVERY, LaneTurns, TurnOutcome, TurnRunner, TurnState};
+use crate::simulate::{LOOKS_EVERY, LaneTurns, TurnMeasures, TurnOutcome, TurnRunner, TurnState};
 use crate::watch::Watch;
 
 /// One of several measurements.
@@ -73,7 +74,8 @@ impl<'a> SideBySide<'_, 'a> {
                     TurnOutcome::Done(done) => {
                         let (turn, state) = *done;
                         one.at = state;
-                        one.measuring.take(turn, self.wearing) && !self.leaves(one)?
+                        self.runner.restore(&one.at)?;
+                        self.take(one, turn)?
                     }
                     TurnOutcome::Alone => self.alone(one)?,
                 };
@@ -93,7 +95,13 @@ impl<'a> SideBySide<'_, 'a> {
         self.runner.restore(&one.at)?;
         let turn = self.runner.measure(self.watch)?;
         one.at = self.runner.state();
-        Ok(one.measuring.take(turn, self.wearing) && !self.leaves(one)?)
+        self.take(one, turn)
+    }
+
+    /// Takes a turn at whose end the runner is; whether it was the last.
+    fn take(&mut self, one: &mut Begun, turn: TurnMeasures) -> Result<bool, RunError> {
+        let stand = Stand::of(self.runner);
+        Ok(one.measuring.take(turn, stand, self.wearing) && !self.leaves(one)?)
     }
 
     /// Whether one that is done has to be made again.

@@ -60,21 +60,25 @@ struct Growth {
 /// A motion that was left.
 #[derive(Debug)]
 pub(super) struct Left {
-    /// Turns in which the motion that was found instead gets over a change of wear.
+    /// Turns, or so often as many as it takes to repeat, in which the motion that was found instead gets over a change of wear.
     pub lasting: u32,
     /// What is doubtful about where it has got to.
     pub doubts: Option<RunWarning>,
 }
 
-/// If a motion between two turns does not come back to itself: goes on until it has got where it goes. If it does, the runner stays
+/// If a motion that is alike after so many turns does not come back to itself: goes on until it has got where it goes. If it does, the runner stays
 /// where it is.
 ///
 /// # Errors
 /// As [`TurnRunner::measure`].
-pub(super) fn leave(runner: &mut TurnRunner<'_>, watch: Watch<'_>) -> Result<Option<Left>, RunError> {
+pub(super) fn leave(
+    runner: &mut TurnRunner<'_>,
+    every: u32,
+    watch: Watch<'_>,
+) -> Result<Option<Left>, RunError> {
     let begin = runner.state();
     let method = runner.go_by(runner.method().at_least(EXACT));
-    let growth = certain_growth(runner, &begin, watch);
+    let growth = certain_growth(runner, (&begin, every), watch);
     runner.go_by(method);
     runner.restore(&begin)?;
     let Some(Growth { factor, direction }) = growth? else { return Ok(None) };
@@ -84,11 +88,11 @@ pub(super) fn leave(runner: &mut TurnRunner<'_>, watch: Watch<'_>) -> Result<Opt
     let size = crate::linear::largest(&direction);
     displace(runner, &direction.iter().map(|x| PUSHED / size * x).collect::<Vec<_>>(), &scales);
     let (mut ran, mut steps) = (0, 0);
-    while ran < turns.min(MOST_TURNS) as u32 && steps < MOST_STEPS {
-        steps += runner.measure(watch)?.statistics.steps;
+    while ran < turns.min(MOST_TURNS / f64::from(every)) as u32 && steps < MOST_STEPS {
+        steps += go_on(runner, every, watch)?;
         ran += 1;
     }
-    let slow = RunWarning::GrowsSlowly { turns: 1.0 / folds, ran };
+    let slow = RunWarning::GrowsSlowly { turns: f64::from(every) / folds, ran: ran * every };
     let lasting = ((OVER / folds).ceil() as u32).min(ran);
     Ok(Some(Left { lasting, doubts: (f64::from(ran) < turns).then_some(slow) }))
 }
@@ -96,14 +100,15 @@ pub(super) fn leave(runner: &mut TurnRunner<'_>, watch: Watch<'_>) -> Result<Opt
 /// The growth in the turn from a state, if there is any that does not depend on how far journals are displaced.
 fn certain_growth(
     runner: &mut TurnRunner<'_>,
-    begin: &TurnState,
+    (begin, every): (&TurnState, u32),
     watch: Watch<'_>,
 ) -> Result<Option<Growth>, RunError> {
-    let Some(found) = growth(runner, (begin, DISPLACED), watch)?.filter(|growth| growth.factor > 1.0 + GROWS)
+    let Some(found) =
+        growth(runner, (begin, every), DISPLACED, watch)?.filter(|growth| growth.factor > 1.0 + GROWS)
     else {
         return Ok(None);
     };
-    let larger = growth(runner, (begin, LARGER * DISPLACED), watch)?;
+    let larger = growth(runner, (begin, every), LARGER * DISPLACED, watch)?;
     let is_same = |larger: &Growth| (larger.factor / found.factor).ln().abs() <= SAME * found.factor.ln();
     Ok(larger.is_some_and(|larger| is_same(&larger)).then_some(found))
 }
@@ -111,13 +116,14 @@ fn certain_growth(
 /// The growth in the turn from a state, of displacements [radial clearances]; nothing where journals cannot be displaced.
 fn growth(
     runner: &mut TurnRunner<'_>,
-    (begin, displaced): (&TurnState, f64),
+    (begin, every): (&TurnState, u32),
+    displaced: f64,
     watch: Watch<'_>,
 ) -> Result<Option<Growth>, RunError> {
     let scales = scales(runner)?;
     runner.restore(begin)?;
     let stand = standing(runner, &scales);
-    if runner.measure(watch)?.statistics.steps > LOUD {
+    if go_on(runner, every, watch)? > LOUD {
         return Ok(None);
     }
     let reached = standing(runner, &scales);
@@ -133,7 +139,7 @@ fn growth(
         if !displace(runner, &by, &scales) {
             return Ok(None);
         }
-        runner.measure(watch)?;
+        go_on(runner, every, watch)?;
         let now = standing(runner, &scales);
         let mut grown: Vec<f64> = now.iter().zip(&reached).map(|(a, b)| (a - b) / displaced).collect();
         let before = dot(&grown, &grown).sqrt();
@@ -158,6 +164,11 @@ fn growth(
     let mut direction = vec![0.0; stand.len()];
     basis.iter().zip(&amounts).for_each(|(basis, amount)| add_scaled(&mut direction, *amount, basis));
     Ok(Some(Growth { factor, direction }))
+}
+
+/// Runs as many turns as motions take to repeat; their steps.
+fn go_on(runner: &mut TurnRunner<'_>, every: u32, watch: Watch<'_>) -> Result<u64, RunError> {
+    (0..every).map(|_| Ok(runner.measure(watch)?.statistics.steps)).sum()
 }
 
 /// Magnitude of the largest eigenvalue of a matrix, and a vector of what it grows.

@@ -46,6 +46,7 @@ pub use run::{Run, Statistics};
 pub use settings::{Integrator, Settings, Span};
 pub use simulation::{KnownAngles, Simulation, SimulationState};
 pub use state_space::StateSpace;
+pub(crate) use turns::Place;
 pub use turns::{TurnMeasures, TurnRunner, TurnState};
 pub use warning::RunWarning;
 

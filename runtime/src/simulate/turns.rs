@@ -4,6 +4,8 @@
 mod journals;
 mod laws;
 
+pub(crate) use journals::Place;
+
 use std::f64::consts::PI;
 
 use super::motion::ConstrainedMotion;
