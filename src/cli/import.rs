@@ -13,6 +13,7 @@ use super::failure::Failure;
 use super::input::check_output;
 use crate::files::write_whole;
 use crate::import::{Base, Files, ImportError, LengthUnit, from_robot, from_stl};
+use crate::number::fixed;
 
 pub fn run(arguments: &ImportArguments) -> Result<Answer, Failure> {
     let (file, out) = (&arguments.file, &arguments.out);
@@ -65,7 +66,7 @@ fn part(arguments: &ImportArguments) -> Result<Answer, Failure> {
     let made = from_stl(&bytes, &name, density, arguments.unit).map_err(fault(file))?;
     write_whole(out, |target| target.write_all(made.text.as_bytes()))?;
     let shown = out.display();
-    let lengths = |values: [f64; 3]| values.map(|x| format!("{:.6}", 1e3 * x)).join(", ");
+    let lengths = |values: [f64; 3]| values.map(|x| fixed(1e3 * x, 6)).join(", ");
     let mut text = format!(
         "{shown} written: {}, {} triangles, closed, coordinates in {}\n\n  size    {} mm\n  volume  {:.6e} m^3\n  mass    {:.6} kg\n  centre  {} mm\n  inertia {} kg m^2\n          about the centre: xx, yy, zz, xy, xz, yz\n",
         made.name,

@@ -84,7 +84,8 @@ fn answer(arguments: &PlanArguments, source: Source) -> Result<Answer, Failure> 
     let (from, sha256, warnings) = match &source {
         Source::Fit(fit) => {
             let (.., fit) = &**fit;
-            let warnings: Vec<String> = fit.warning().into_iter().map(str::to_owned).collect();
+            let of_fit = fit.warning().into_iter().map(str::to_owned);
+            let warnings: Vec<String> = of_fit.chain(fit.far_covariates(&arguments.covariate)).collect();
             ("fit", sha256_of(fit.text().as_bytes()), warnings)
         }
         Source::Lives(_, count, sha256) => {

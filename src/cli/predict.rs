@@ -57,7 +57,8 @@ pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Fai
         let join = if at == 0 { " at" } else { "," };
         let _ = write!(answer.from, "{join} {name} = {value}");
     }
-    answer.warnings.splice(0..0, fit.warning().into_iter().chain(warning).map(str::to_owned));
+    let of_fit = fit.warning().into_iter().chain(warning).map(str::to_owned);
+    answer.warnings.splice(0..0, of_fit.chain(fit.far_covariates(&values)));
     let mut options = json!({
         "threshold": arguments.threshold, "current": arguments.current, "at": arguments.at,
         "covariates": covariates(&arguments.covariate),

@@ -11,7 +11,7 @@ use super::failure::Failure;
 use super::input::{options, print_remarks};
 use super::table::{plural, table};
 use crate::mechanism::{Mechanism, read_source};
-use crate::number::number;
+use crate::number::{fixed, number};
 use crate::progress::watched;
 use crate::sensitivity::{Derived, SensitivityError, SensitivityResult, SensitivityStudy};
 
@@ -113,7 +113,7 @@ fn text(name: &str, found: &SensitivityResult) -> String {
             if cycles.doubts[at].is_finite() { format!("{:.0e}", cycles.doubts[at]) } else { String::new() },
         ];
         row.extend(quantities.iter().map(|(_, of)| {
-            found.elasticity(of, at).map_or_else(String::new, |elasticity| format!("{elasticity:.4}"))
+            found.elasticity(of, at).map_or_else(String::new, |elasticity| fixed(elasticity, 4))
         }));
         row
     };

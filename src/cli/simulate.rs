@@ -6,7 +6,7 @@ use std::time::Instant;
 use crate::csv_table::CsvTable;
 use crate::inputs::read_inputs;
 use crate::mechanism::Mechanism;
-use crate::number::number;
+use crate::number::{fixed, number};
 #[cfg(feature = "page")]
 use crate::page::run_picture;
 use crate::progress::watched;
@@ -280,7 +280,7 @@ fn turns_table(description: &Description, run: &Run) -> String {
     let brief = || ContactMeasure::COLUMNS.iter().filter(|(column, _)| column.brief);
     let row = |(turn, joint, measure): (usize, &str, &ContactMeasure)| -> Vec<String> {
         let cells = brief().map(|(column, value)| match column.unit {
-            "J" => format!("{:.7}", value(measure)),
+            "J" => fixed(value(measure), 7),
             _ => number(value(measure)),
         });
         [turn.to_string(), joint.to_owned()].into_iter().chain(cells).collect()

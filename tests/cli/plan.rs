@@ -50,6 +50,13 @@ fn a_fit_gives_ages_looks_and_spares_that_agree_with_each_other() {
     let own = plan(&fit, &own);
     assert_eq!((number(&own["by_looks"]["interval"]), number(&own["by_looks"]["threshold"])), (4.0, 10.0));
     assert!(number(&own["by_looks"]["cost_rate"]) >= number(&looks["cost_rate"]));
+    // Looks that find what failed, and next to nothing else, save nothing, and are not told to save -0.00 %.
+    let late = ["--inspection", "0.0001", "--interval", "1", "--replace-from", "20"];
+    let told = linkwear(
+        &[&["plan", &fit, "--preventive", "100", "--failure", "900"], &base[..], &late[..]].concat(),
+    );
+    let row = told.out.lines().find(|line| line.contains("look every 1")).expect("the plan").to_owned();
+    assert!(row.contains("  0.00 %") && !row.contains("-0.00"), "{row}");
     // A look long before any failure is worth little, one at the right time something.
     let look = |at: &str| {
         let told = plan(&fit, &[&base[..], &["--look-at", at, "--current", "8"]].concat());

@@ -247,6 +247,38 @@ fn a_fit_goes_over_into_its_prediction() {
     assert!((worn - 50.0).abs() < 0.5 / beta, "{worn}");
 }
 
+#[test]
+fn a_covariate_far_outside_the_data_is_warned_of() {
+    let folder = Folder::new("predict-far");
+    let mut rows = String::from("unit,h,um,load\n");
+    for unit in 0..6 {
+        let load = if unit % 2 == 0 { 2 } else { 5 };
+        let mut wear = 0;
+        for step in 0..5 {
+            rows.push_str(&format!("{unit},{step},{wear},{load}\n"));
+            wear += load + (3 * unit + 5 * step) % 7;
+        }
+    }
+    let (data, fit) = (folder.write("data.csv", &rows), folder.path("fit.json"));
+    let columns = ["--unit", "unit", "--exposure", "h", "--wear", "um", "--covariate", "load"];
+    let fitted = linkwear(&[&["fit", &data, "--out", &fit], &columns[..]].concat());
+    assert_eq!(fitted.code, 0, "{}", fitted.err);
+    let costs = ["--preventive", "100", "--failure", "900"];
+    for (load, is_far) in [("load=3", false), ("load=500", true)] {
+        let predict = ["predict", &fit, "--threshold", "100", "--covariate", load];
+        let also = format!("{fit}:50");
+        let of_machine = [&predict[..], &["--also", &also]].concat();
+        let plan = [&["plan", &fit, "--threshold", "100", "--covariate", load], &costs[..]].concat();
+        for arguments in [&predict[..], &of_machine, &plan] {
+            let is_told = |text: &str| text.contains("`load` = 500 is far outside the data");
+            let told = linkwear(arguments);
+            assert_eq!((told.code, is_told(&told.out)), (0, is_far), "{}{}", told.out, told.err);
+            let told = linkwear(&[arguments, &["--format", "json"]].concat()).json();
+            assert_eq!(is_told(&told["warnings"].to_string()), is_far, "{told}");
+        }
+    }
+}
+
 /// A fit with a covariate, ln alpha and its power uncertain and correlated.
 const LOADED: &str = r#"{
   "alpha": 20.0,

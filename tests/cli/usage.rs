@@ -248,7 +248,14 @@ fn what_is_no_number_or_none_at_all_is_told_by_its_name() {
         let changed = text.replace(coefficient, &format!("{coefficient}\ncoefficient_factor = {factor}"));
         linkwear(&["life", &folder.write("factor.toml", &changed), "--mean", "--coupling", "full"])
     };
-    let none = with("0");
+    // What is zero whatever happens is told at its place; that a load, a speed or an input makes it so, by the life.
+    let never = with("0");
+    assert!(
+        never.code == 1 && never.err.contains("E0403") && never.err.contains("coefficient_factor = 0"),
+        "{}",
+        never.err
+    );
+    let none = with("\"0*sliding_speed/(1 m/s)\"");
     assert!(none.code == 1 && none.err.contains("a wear coefficient of zero"), "{}", none.err);
     let no_number = with("\"sqrt(1 - sliding_speed/(0.01 m/s))\"");
     assert!(

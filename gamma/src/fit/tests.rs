@@ -9,6 +9,7 @@ use crate::process::{Gamma, InverseGaussian, PROCESSES, Process, Wiener};
 mod bootstrap_coverage;
 mod bounds;
 mod derivatives;
+mod little_scatter;
 mod not_told;
 mod rounded_units;
 mod sizes;

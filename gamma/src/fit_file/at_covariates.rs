@@ -202,6 +202,31 @@ impl FitFile {
         Ok((unit, self.seen[at].1, last.to))
     }
 
+    /// Warnings of covariates that are farther from those of the data than these are from each other, in logarithms, by which powers
+    /// go. None of fits whose files do not hold the covariates of their increments.
+    pub fn far_covariates(&self, values: &[(String, f64)]) -> Vec<String> {
+        if !self.has_covariates_of_increments() {
+            return Vec::new();
+        }
+        let far = |(at, covariate): (usize, &Covariate)| {
+            let (name, value) = values.iter().find(|(name, _)| *name == covariate.name)?;
+            let seen = self.increments.iter().map(|one| one.ln_covariates[at]);
+            let (low, high) =
+                seen.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), ln| (low.min(ln), high.max(ln)));
+            let (ln, width) = (libm::log(*value), high - low);
+            // The logarithm's last place is no distance.
+            let is_far = width.is_finite() && (ln > high + width + 1e-9 || ln < low - width - 1e-9);
+            let text = |ln: f64| format!("{:.4}", libm::exp(ln));
+            is_far.then(|| {
+                let (low, high) = (text(low), text(high));
+                format!(
+                    "covariate `{name}` = {value} is far outside the data, which have it from {low} to {high}: that its power holds so far is an assumption, which no band covers"
+                )
+            })
+        };
+        self.covariates.iter().enumerate().filter_map(far).collect()
+    }
+
     /// Values in the order of the fit's covariates.
     fn in_order(&self, values: &[(String, f64)]) -> Result<Vec<f64>, FitFileError> {
         let fault = |message: String, cure: &str| Err(self.fault("covariates", &message, cure));

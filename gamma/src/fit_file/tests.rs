@@ -40,6 +40,28 @@ fn at(file: &FitFile, load: f64) -> Estimate {
 }
 
 #[test]
+fn a_load_far_outside_those_of_the_data_is_told() {
+    // Loads are 2 and 5, a factor of 2.5: outside by as much is 0.8 and 12.5.
+    for process in PROCESSES {
+        let file = fitted(process, 1.0);
+        let told = |load: f64| file.far_covariates(&[("load".to_owned(), load)]);
+        for near in [0.81, 2.0, 3.0, 5.0, 12.4] {
+            assert_eq!(told(near), Vec::<String>::new(), "{process:?}");
+        }
+        for far in [0.79, 12.6, 500.0] {
+            let warnings = told(far);
+            assert!(warnings.len() == 1 && warnings[0].contains("from 2.0000 to 5.0000"), "{warnings:?}");
+        }
+        // A file without increments does not say which loads it saw.
+        assert!(
+            FitFile { increments: Vec::new(), ..file }
+                .far_covariates(&[("load".to_owned(), 500.0)])
+                .is_empty()
+        );
+    }
+}
+
+#[test]
 fn a_fit_at_a_load_does_not_depend_on_the_unit_of_the_load() {
     for process in PROCESSES {
         // With the load counted in units of 3, a load of 3 is 1: there the parameters and their covariance hold.

@@ -251,3 +251,48 @@ fn hardly_any_difference_is_none() {
         assert!((failed - process.failure(LOGS, 1.7, 3.0)).abs() < 1e-7, "{process:?}");
     }
 }
+
+/// By mpmath, 50 digits: ln of the plain density and of those of units that differ by 0.2 and 2^-10, slopes.
+#[test]
+#[allow(clippy::excessive_precision, reason = "as computed")]
+fn densities_of_large_shapes_keep_their_digits() {
+    let effect = Gamma.random_effect().expect("a law");
+    for (eta, wear, plain, mixed, slopes) in [
+        (
+            9.211340371976183,
+            1.367398200185398,
+            2.5360625924953067,
+            [0.3709399685012386, 2.539301766454419],
+            [129.72727365269462, -130.06501625270897],
+        ),
+        (
+            18.420680743952367,
+            1.350034289220989,
+            7.146345072581763,
+            [0.38703589582864608, 5.6984206076929888],
+            [12999.655073223247, -12999.99999999622],
+        ),
+        (
+            27.631021115928547,
+            1.349860562392454,
+            11.751571457008357,
+            [0.38716492355991875, 5.712530482790785],
+            [1299999.6550658268, -1300000.0000650946],
+        ),
+    ] {
+        let logs = [eta, eta - 0.3];
+        // Wear and ln beta are known to 1e-16 and 4e-15 of the mean, and the density falls by up to 1.3 sqrt(a) times that; as written
+        // it was off by a times as much: 2e-7 and 2e-3.
+        let tolerance = 1e-14 * libm::exp(0.5 * eta) + 1e-13;
+        let term = Gamma.density(logs, wear);
+        assert!((term.value - plain).abs() < tolerance, "{eta}: {}", term.value);
+        for (cv, expected) in [0.2, 1.0 / 1024.0].into_iter().zip(mixed) {
+            let found = effect.ln_density(logs, cv, wear);
+            assert!((found - expected).abs() < tolerance, "{eta} {cv}: {found}");
+        }
+        for (found, expected) in term.gradient.into_iter().zip(slopes) {
+            // Of ln beta's rounding; the curvature is a.
+            assert!((found - expected).abs() < 1e-14 * libm::exp(eta) + 1e-11, "{eta}: {found} {expected}");
+        }
+    }
+}

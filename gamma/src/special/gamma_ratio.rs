@@ -1,6 +1,6 @@
 //! The law of a Gamma number over another of mean 1, and with it those of beta and of F. In and out: numbers. Never knows wear.
 
-use super::ln_gamma::ln_gamma;
+use super::ln_gamma::{ln_gamma, stirling_rest};
 
 /// From here on Stirling's series has all digits with the terms it has here.
 const LARGE: f64 = 20.0;
@@ -15,13 +15,8 @@ pub fn ln_rising(base: f64, shape: f64) -> f64 {
     if base < LARGE {
         return ln_gamma(base + shape) - ln_gamma(base) - shape * libm::log(base);
     }
-    let rest = |x: f64| {
-        let square = 1.0 / (x * x);
-        (1.0 / 12.0
-            - square * (1.0 / 360.0 - square * (1.0 / 1260.0 - square * (1.0 / 1680.0 - square / 1188.0))))
-            / x
-    };
-    (base + shape - 0.5) * libm::log1p(shape / base) - shape + rest(base + shape) - rest(base)
+    (base + shape - 0.5) * libm::log1p(shape / base) - shape + stirling_rest(base + shape)
+        - stirling_rest(base)
 }
 
 /// Probabilities that a Gamma number of shape `shape` (rate 1), over an independent one of shape `base` and mean 1, is at most `ratio`,

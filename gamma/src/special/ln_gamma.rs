@@ -8,6 +8,14 @@ pub fn ln_gamma(x: f64) -> f64 {
     libm::lgamma(x)
 }
 
+/// ln Gamma(x) less Stirling's (x - 1/2) ln x - x + ln(2 pi) / 2, for large x, where the difference has no digits left.
+pub fn stirling_rest(x: f64) -> f64 {
+    let square = 1.0 / (x * x);
+    (1.0 / 12.0
+        - square * (1.0 / 360.0 - square * (1.0 / 1260.0 - square * (1.0 / 1680.0 - square / 1188.0))))
+        / x
+}
+
 /// ln Gamma(1 + x), x > -1, right to the last digits at tiny x, where ln Gamma(1 + x) as written has lost x.
 pub fn ln_gamma_1p(x: f64) -> f64 {
     if x.abs() >= 0.1 {

@@ -14,10 +14,22 @@ pub fn digamma(x: f64) -> f64 {
         x += 1.0;
     }
     let r = 1.0 / (x * x);
-    let series = 1.0 / 12.0
+    sum + libm::log(x) - 0.5 / x - r * digamma_series(r)
+}
+
+fn digamma_series(r: f64) -> f64 {
+    1.0 / 12.0
         - r * (1.0 / 120.0
-            - r * (1.0 / 252.0 - r * (1.0 / 240.0 - r * (1.0 / 132.0 - r * (691.0 / 32_760.0 - r / 12.0)))));
-    sum + libm::log(x) - 0.5 / x - r * series
+            - r * (1.0 / 252.0 - r * (1.0 / 240.0 - r * (1.0 / 132.0 - r * (691.0 / 32_760.0 - r / 12.0)))))
+}
+
+/// ln x - psi(x), which goes to 1 / (2 x), without the difference of large numbers.
+pub fn ln_less_digamma(x: f64) -> f64 {
+    if x < LARGE {
+        return libm::log(x) - digamma(x);
+    }
+    let r = 1.0 / (x * x);
+    0.5 / x + r * digamma_series(r)
 }
 
 /// Trigamma function psi'(x), x > 0.
@@ -28,9 +40,19 @@ pub fn trigamma(x: f64) -> f64 {
         x += 1.0;
     }
     let r = 1.0 / (x * x);
-    let series = 1.0 / 6.0
-        - r * (1.0 / 30.0 - r * (1.0 / 42.0 - r * (1.0 / 30.0 - r * (5.0 / 66.0 - r * 691.0 / 2730.0))));
-    sum + 1.0 / x + 0.5 * r + r / x * series
+    sum + 1.0 / x + 0.5 * r + r / x * trigamma_series(r)
+}
+
+fn trigamma_series(r: f64) -> f64 {
+    1.0 / 6.0 - r * (1.0 / 30.0 - r * (1.0 / 42.0 - r * (1.0 / 30.0 - r * (5.0 / 66.0 - r * 691.0 / 2730.0))))
+}
+
+/// x² psi'(x) - x, which goes to 1/2, without the difference of large numbers.
+pub fn trigamma_rest(x: f64) -> f64 {
+    if x < LARGE {
+        return x * x * trigamma(x) - x;
+    }
+    0.5 + trigamma_series(1.0 / (x * x)) / x
 }
 
 /// Tetragamma function psi''(x), x > 0.
@@ -67,6 +89,18 @@ mod tests {
         for x in [1e-8, 0.3, 11.5, 11.999] {
             assert!((digamma(x + 1.0) - digamma(x) - 1.0 / x).abs() < 4e-15 * (1.0 / x).max(3.0), "{x}");
         }
+    }
+
+    #[test]
+    fn what_is_left_of_large_numbers_has_all_digits() {
+        // Where recurrence ends both ways have 14 digits of numbers of size 3 and 12.
+        for x in [0.3, 11.9, 12.0, 40.0] {
+            assert!((ln_less_digamma(x) - (libm::log(x) - digamma(x))).abs() < 2e-15, "{x}");
+            assert!((trigamma_rest(x) - (x * x * trigamma(x) - x)).abs() < 1e-13, "{x}");
+        }
+        // The terms that come next are 1e-28 and 1e-14 of these.
+        assert!((ln_less_digamma(1e14) * 2e14 - 1.0).abs() < 4e-15);
+        assert!((trigamma_rest(1e14) - 0.5).abs() < 4e-15);
     }
 
     #[test]

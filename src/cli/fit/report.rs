@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::number::number;
+use crate::number::{fixed, number};
 use crate::provenance::Provenance;
 use linkwear_gamma::fit::{Bootstrap, Fit, Heterogeneity, Interval, LikelihoodRatio};
 use linkwear_gamma::process::Process;
@@ -252,7 +252,7 @@ fn part(text: &mut String, arguments: &FitArguments, own: &Analysis) {
         .zip(fit.parameters())
         .enumerate()
         .map(|(at, (name, value))| {
-            let mut row = vec![name, format!("{value:.8}"), number(errors[at]), span(own.intervals[at])];
+            let mut row = vec![name, fixed(value, 8), number(errors[at]), span(own.intervals[at])];
             row.extend(own.bootstrap.as_ref().map(|drawn| span(drawn.interval(&own.fit, at, LEVEL))));
             row
         })

@@ -9,7 +9,7 @@ use super::super::answer::identify::{
 };
 use super::super::table::{plural, table};
 use crate::identify::{Clocks, Combination, Estimated, GroupFit, Identified, Minimum, State, probability};
-use crate::number::number;
+use crate::number::{fixed, number};
 use crate::provenance::Provenance;
 
 /// What was found.
@@ -201,7 +201,7 @@ fn correlations(text: &mut String, told: &Told<'_>) {
     let name = |at: usize| told.found.parameters[at].free.name.clone();
     let row = |at: &usize| {
         let cells = places.iter().map(|other| {
-            told.found.correlations[*at][*other].map_or_else(String::new, |value| format!("{value:.3}"))
+            told.found.correlations[*at][*other].map_or_else(String::new, |value| fixed(value, 3))
         });
         [name(*at)].into_iter().chain(cells).collect::<Vec<_>>()
     };

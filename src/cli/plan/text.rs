@@ -6,13 +6,13 @@ use super::super::answer::common::Ends;
 use super::super::answer::plan::{ByLooksAnswer, CountAnswer, PlanAnswer};
 use super::super::arguments::PlanArguments;
 use super::super::table::table;
-use crate::number::number;
+use crate::number::{fixed, number};
 
 /// All of it.
 pub fn text(arguments: &PlanArguments, told: &PlanAnswer) -> String {
     let unit = if told.from == "lives" { "cycle" } else { "unit of time" };
     let mut text = format!("what replacements cost per {unit} in the long run, by {}\n\n", told.from);
-    let percent = |part: f64| format!("{:.2} %", 100.0 * part);
+    let percent = |part: f64| format!("{} %", fixed(100.0 * part, 2));
     let waiting = told.at_failure.cost_rate;
     let row = |plan: String, rate: f64, fail: f64| {
         vec![plan, number(rate), percent(1.0 - rate / waiting), percent(fail)]

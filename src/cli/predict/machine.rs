@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use linkwear_gamma::life::OperatingState;
-use linkwear_gamma::{FitFile, Machine, Member, Questions};
+use linkwear_gamma::{Covariate, FitFile, Machine, Member, Questions};
 use serde_json::{Value, json};
 
 use super::super::arguments::PredictArguments;
@@ -69,6 +69,7 @@ pub fn machine(
         );
     }
     for (other, joint) in others.iter().zip(&arguments.also) {
+        life.warnings.extend(other.far_covariates(&values_of(arguments, other)));
         // Units are words of the data: two for one unit are no fault.
         if !fit.exposure_unit.is_empty() && fit.exposure_unit != other.exposure_unit {
             life.warnings.push(format!(
@@ -83,14 +84,14 @@ pub fn machine(
     Ok(Some(Joints { names: names(files.map(AsRef::as_ref)), life, others: told }))
 }
 
+/// The values of the covariates of one fit.
+fn values_of(arguments: &PredictArguments, fit: &FitFile) -> Vec<(String, f64)> {
+    let given = |known: &Covariate| arguments.covariate.iter().find(|(name, _)| *name == known.name);
+    fit.covariates.iter().filter_map(given).cloned().collect()
+}
+
 fn member(arguments: &PredictArguments, fit: &FitFile, joint: &OtherJoint) -> Result<Member, Failure> {
-    let values: Vec<(String, f64)> = fit
-        .covariates
-        .iter()
-        .filter_map(|known| arguments.covariate.iter().find(|(name, _)| *name == known.name))
-        .cloned()
-        .collect();
-    let estimate = fit.informed(&values).map_err(Failure::fit(&joint.fit))?;
+    let estimate = fit.informed(&values_of(arguments, fit)).map_err(Failure::fit(&joint.fit))?;
     let worn = (joint.current, joint.at);
     let state = OperatingState::of(&estimate, joint.threshold, arguments.rate, worn)
         .map_err(|error| Failure::data(&joint.fit, None, error, "see --also in `linkwear predict --help`"))?;

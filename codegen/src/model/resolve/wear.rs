@@ -68,6 +68,14 @@ impl Resolver<'_> {
                 .help("put them together in fewer inputs, or fix parameters with `tunable = false`");
         }
         self.check_factor(name, (&what, &formula), laws.wear.map_or(1e9, |wear| wear.hardness));
+        // Of pressure or speed it may be zero somewhere, and what is live may change in a run.
+        if live.is_empty() && formula.term.value_at(&self.values, None) == Some(0.0) {
+            let message = format!("{what} is 0: the joint never wears");
+            self.refuse(Code::NotPositive, written.span, message).label("it must be above 0").help(format!(
+                "leave out the wear of `{}` if it does not wear; else give the factor, or leave it out, which is 1",
+                name.value
+            ));
+        }
         Some(WearFactor { formula, live })
     }
 

@@ -6,7 +6,7 @@ use rand::RngExt;
 
 use super::super::random_effect::{RandomEffect, RandomLaw};
 use crate::random::{LnGamma, Stream};
-use crate::special::{LN_2_PI, gamma_ratio, ln_gamma, ln_gamma_ratio_below, ln_rising};
+use crate::special::{LN_2_PI, gamma_ratio, ln_gamma, ln_gamma_ratio_below, ln_rising, stirling_rest};
 
 /// Shape from which on two terms of Stirling's series for the density are good to 1e-12.
 const LARGE: f64 = 1e4;
@@ -31,6 +31,19 @@ impl RandomEffect for GammaRate {
 
     fn ln_density(&self, [eta, ln_beta]: [f64; 2], cv: f64, wear: f64) -> f64 {
         let (a, base) = (libm::exp(eta), 1.0 / (cv * cv));
+        if a >= LARGE {
+            let (all, x) = (a + base, libm::exp(ln_beta) * wear);
+            let off = (x - a) / (x + base);
+            // Of ln Gamma(base) as of the others: what Stirling's series leaves of it.
+            let of_base = match base < LARGE {
+                true => ln_gamma(base) - ((base - 0.5) * libm::log(base) - base + 0.5 * LN_2_PI),
+                false => stirling_rest(base),
+            };
+            let rests = stirling_rest(all) - stirling_rest(a) - of_base;
+            // The leading terms of both logarithms cancel.
+            let exponent = a * libm::log1p(off * base / a) + base * libm::log1p(-off);
+            return exponent + 0.5 * (libm::log(a / all * base) - LN_2_PI) + rests - libm::log(wear);
+        }
         a * ln_beta - ln_gamma(a) + (a - 1.0) * libm::log(wear) + ln_rising(base, a)
             - (a + base) * libm::log1p(libm::exp(ln_beta) * wear / base)
     }
