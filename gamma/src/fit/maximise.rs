@@ -92,8 +92,6 @@ fn climb(
     let edge = held.and(model.units_differ.then(|| (phi.len() - 1, libm::log(LARGEST_CV))));
     // Whether there is scatter at all: with a parameter held there was some.
     let mut is_asked = held.is_some();
-    // What the last step was to gain, if it had to be shortened.
-    let mut shortened: Option<f64> = None;
     for _ in 0..MOST_STEPS {
         let at_edge = edge.filter(|(cv, most)| phi[*cv] >= *most && here.gradient[*cv] > 0.0);
         let is_free = |at: &usize| Some(*at) != held && Some(*at) != at_edge.map(|(cv, _)| cv);
@@ -107,14 +105,8 @@ fn climb(
         if done && held.is_some() {
             return Ok(here);
         }
-        // Near the top a step leaves the square of it. One that is shortened there and leaves it as it was is within what rounding
-        // lets the likelihood show.
-        if gain < NEARLY_DONE && shortened.is_some_and(|last| gain > 0.5 * last) {
-            return Ok(here);
-        }
         // No two e-folds at once: far from the top the quadratic model means nothing.
-        let longest = 2.0 / step.iter().fold(2.0_f64, |most, s| most.max(s.abs()));
-        let mut length = longest;
+        let mut length = 2.0 / step.iter().fold(2.0_f64, |most, s| most.max(s.abs()));
         loop {
             let mut next = phi.clone();
             for (at, step) in free.iter().zip(&step) {
@@ -138,7 +130,6 @@ fn climb(
         if done {
             return Ok(here);
         }
-        shortened = (length < longest).then_some(gain);
         if model.ln_scatter(phi, increments) < 0.0 {
             return Err(FitError::ScatterBelowGauge);
         }

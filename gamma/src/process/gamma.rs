@@ -11,7 +11,7 @@ use super::random_effect::RandomEffect;
 use crate::random::{LnGamma, Stream};
 use crate::special::{
     LN_2_PI, digamma, gamma_p, gamma_q, gamma_quantile, gamma_ratio, guarded, ln_gamma, ln_gamma_p_slope,
-    ln_less_digamma, stirling_rest, tetragamma, trigamma, trigamma_rest,
+    ln_less_digamma, ln_ratio, stirling_rest, tetragamma, trigamma, trigamma_rest,
 };
 
 /// Steps of Newton's method; 5 to 15 are usual.
@@ -69,7 +69,7 @@ impl Process for Gamma {
         let ln_wear = libm::log(wear);
         let scaled = libm::exp(ln_beta) * wear;
         if a >= LARGE {
-            let slope = a * (libm::log1p((scaled - a) / a) + ln_less_digamma(a));
+            let slope = a * (ln_ratio((scaled - a) / a, scaled / a) + ln_less_digamma(a));
             return Term {
                 value: self.ln_density([eta, ln_beta], wear),
                 gradient: [slope, a - scaled],
@@ -87,9 +87,10 @@ impl Process for Gamma {
     fn ln_density(&self, [eta, ln_beta]: [f64; 2], wear: f64) -> f64 {
         let a = libm::exp(eta);
         if a >= LARGE {
-            let off = (libm::exp(ln_beta) * wear - a) / a;
+            let scaled = libm::exp(ln_beta) * wear;
+            let off = (scaled - a) / a;
             let rest = 0.5 * (eta - LN_2_PI) - stirling_rest(a);
-            return a * (libm::log1p(off) - off) + rest - libm::log(wear);
+            return a * (ln_ratio(off, scaled / a) - off) + rest - libm::log(wear);
         }
         a * ln_beta - ln_gamma(a) + (a - 1.0) * libm::log(wear) - libm::exp(ln_beta) * wear
     }
@@ -236,7 +237,8 @@ fn profile_ln_alpha(lambdas: &[f64], wears: &[f64]) -> Option<f64> {
     }
     let of_scatter = |(l, w): (&f64, &f64)| {
         let off = (w - rate * l) / (rate * l);
-        l * (libm::log1p(off) - off)
+        // Of an increment that is next to nothing beside its mean, nothing is left of 1 + off.
+        l * (ln_ratio(off, w / (rate * l)) - off)
     };
     let of_scatter: f64 = lambdas.iter().zip(wears).map(of_scatter).sum();
     let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);

@@ -16,6 +16,11 @@ pub fn stirling_rest(x: f64) -> f64 {
         / x
 }
 
+/// ln of a ratio that is 1 + `off`: by this where it is near 1, by the ratio where that has digits of `off` no longer.
+pub fn ln_ratio(off: f64, ratio: f64) -> f64 {
+    if off.abs() < 0.5 { libm::log1p(off) } else { libm::log(ratio) }
+}
+
 /// ln Gamma(1 + x), x > -1, right to the last digits at tiny x, where ln Gamma(1 + x) as written has lost x.
 pub fn ln_gamma_1p(x: f64) -> f64 {
     if x.abs() >= 0.1 {

@@ -6,7 +6,9 @@ use rand::RngExt;
 
 use super::super::random_effect::{RandomEffect, RandomLaw};
 use crate::random::{LnGamma, Stream};
-use crate::special::{LN_2_PI, gamma_ratio, ln_gamma, ln_gamma_ratio_below, ln_rising, stirling_rest};
+use crate::special::{
+    LN_2_PI, gamma_ratio, ln_gamma, ln_gamma_ratio_below, ln_ratio, ln_rising, stirling_rest,
+};
 
 /// Shape from which on two terms of Stirling's series for the density are good to 1e-12.
 const LARGE: f64 = 1e4;
@@ -41,7 +43,8 @@ impl RandomEffect for GammaRate {
             };
             let rests = stirling_rest(all) - stirling_rest(a) - of_base;
             // The leading terms of both logarithms cancel.
-            let exponent = a * libm::log1p(off * base / a) + base * libm::log1p(-off);
+            let exponent = a * ln_ratio(off * base / a, x * (all / a) / (x + base))
+                + base * ln_ratio(-off, all / (x + base));
             return exponent + 0.5 * (libm::log(a / all * base) - LN_2_PI) + rests - libm::log(wear);
         }
         a * ln_beta - ln_gamma(a) + (a - 1.0) * libm::log(wear) + ln_rising(base, a)
