@@ -59,9 +59,10 @@ pub(super) struct Settling {
     /// The largest seen.
     seen: Option<f64>,
     last: Option<f64>,
-    /// By how much the last turn left journals elsewhere than where it began, and how many times as much that is as of the turn before.
-    moved: Option<Moved>,
-    grown: Option<f64>,
+    /// By how much the last two turns left journals elsewhere than where they began, the last first, and how many times as much that is as
+    /// of one and two turns before.
+    moved: [Option<Moved>; 2],
+    grown: [Option<f64>; 2],
     /// What is known of the motion's stability, and whether this measurement needs more.
     tried: Vec<f64>,
     lasting: u32,
@@ -75,19 +76,21 @@ impl Settling {
         let known = from.map_or(1.0, |orbit| (grown * orbit.contraction).min(1.0));
         let tried = from.map_or_else(Vec::new, |orbit| orbit.tried.clone());
         let lasting = from.map_or(0, |orbit| orbit.lasting);
-        Self { settled, known, seen: None, last: None, moved: None, grown: None, tried, lasting }
+        Self { settled, known, seen: None, last: None, moved: [None; 2], grown: [None; 2], tried, lasting }
     }
 
     /// A turn has left journals elsewhere than where it began by so much.
     pub(super) fn moves(&mut self, by: Moved) {
-        self.grown = self.moved.map(|before| growth(before, by));
-        self.moved = Some(by);
+        self.grown = self.moved.map(|before| before.map(|before| growth(before, by)));
+        self.moved = [Some(by), self.moved[0]];
     }
 
-    /// Whether journals come nearer to where they stood a turn before.
+    /// Whether journals come nearer to where they stood a turn before, by the last turn or by both of the last two: of these the first may
+    /// have left offsets where they were by chance.
     fn comes_back(&self) -> bool {
         let enough = if self.tried.is_empty() { FIRST_COMES_BACK } else { COMES_BACK };
-        self.grown.is_some_and(|factor| factor < enough)
+        let [in_one, in_two] = self.grown;
+        in_one.is_some_and(|factor| factor < enough) || in_two.is_some_and(|factor| factor < enough * enough)
     }
 
     /// Whether a turn counts that differs by these parts of its wear from the one before; what is no number has not settled.
@@ -121,7 +124,7 @@ impl Settling {
         self.tried = rooms;
         if let Some(left) = left {
             (self.known, self.seen, self.last, self.lasting) = (1.0, None, None, left.lasting);
-            (self.moved, self.grown) = (None, None);
+            (self.moved, self.grown) = ([None; 2], [None; 2]);
         }
     }
 
@@ -181,5 +184,26 @@ mod tests {
         assert!(!Settling::new(Some(&from(0.02)), 2.0, 1e-5).has_settled([1e-4].into_iter()));
         let mut still = Settling::new(Some(&from(0.5)), 1.1, 1e-5);
         assert!(still.has_settled([0.0].into_iter()) && !still.has_settled([f64::NAN, 0.0].into_iter()));
+    }
+    #[test]
+    fn a_turn_that_left_offsets_by_chance_where_they_were_does_not_hide_that_journals_come_back() {
+        let turns = |moved: &[Moved], tried: Vec<f64>| {
+            let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
+            let from = Orbit { turn, contraction: 1.0, tried, lasting: 0 };
+            let mut settling = Settling::new(Some(&from), 1.0, 1e-5);
+            moved.iter().for_each(|moved| settling.moves(*moved));
+            settling.comes_back()
+        };
+        // As in the case study: offsets by 100, then back by 10, rates by 20 and by 5.
+        let chance = [[0.0156, 111.4], [0.000154, 5.29], [0.00147, 1.08]];
+        assert!(turns(&chance, vec![1e-5]) && !turns(&chance[1..], vec![1e-5]));
+        // Of a motion of which nothing is known that is not enough.
+        assert!(!turns(&chance, vec![]));
+        // A swing that grows by 5 % a turn is none that comes back, wherever in its way it is seen.
+        let swing = |turn: i32| {
+            let (sine, cosine) = (1.3 * f64::from(turn)).sin_cos();
+            [cosine, 30.0 * sine].map(|part| 1e-3 * 1.05_f64.powi(turn) * part.abs())
+        };
+        assert!((0..50).all(|first| !turns(&[first, first + 1, first + 2].map(swing), vec![1e-5])));
     }
 }

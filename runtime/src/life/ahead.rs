@@ -27,6 +27,12 @@ const SCATTERS: f64 = 0.75;
 const MOST: usize = 128;
 /// Points of a curve.
 const POINTS: usize = 4;
+/// The same of the curve by which a path goes on beyond the last measurement, where measurements scatter: a line there errs by twice
+/// their scatter, a cubic by thirty times as much.
+const SCATTERED_POINTS: usize = 2;
+/// Those of it are no nearer to each other than this part of what a cycle wears: neighbours tell more of the scatter of the fine scale
+/// than of the way on.
+const APART: f64 = 0.5;
 
 /// A measurement.
 struct Station<S> {
@@ -72,13 +78,13 @@ impl<F: WearSource> Walker<'_, F> {
             let error: f64 = pieces.iter().map(|piece| piece.error).sum();
             let allowed = PART * tolerance * cycles;
             if error <= allowed || pieces.len() >= MOST {
-                return self.path(stations, &pieces, (error, most));
+                return self.path(stations, &pieces, (error, most), POINTS);
             }
             let half = before.iter().rev().find(|(count, _)| 2 * count <= pieces.len() + 1);
             if half.is_some_and(|(_, half)| error > SCATTERS * half) {
                 let squares: f64 = pieces.iter().map(|piece| piece.error * piece.error).sum();
                 if squares <= (tolerance * cycles) * (tolerance * cycles) {
-                    return self.path(stations, &pieces, (squares.sqrt(), most));
+                    return self.path(stations, &pieces, (squares.sqrt(), most), SCATTERED_POINTS);
                 }
             }
             // The error falls with a power of the number of measurements.
@@ -105,12 +111,13 @@ impl<F: WearSource> Walker<'_, F> {
         Some(())
     }
 
-    /// The path through these; it goes on for a cycle as it ends, because cycles are whole.
+    /// The path through these; it goes on for a cycle along a curve through so many of the last ones, because cycles are whole.
     fn path(
         &mut self,
         stations: Vec<Station<F::State>>,
         pieces: &[Piece],
         (error, most): (f64, u64),
+        points: usize,
     ) -> Option<Path> {
         let mut segments = Vec::with_capacity(stations.len());
         let mut starts = vec![0.0];
@@ -121,17 +128,21 @@ impl<F: WearSource> Walker<'_, F> {
             starts.push(start + piece.cycles);
         }
         let (last, end) = (stations.last()?, *starts.last()?);
-        let curve = through(&known(&stations[stations.len().saturating_sub(POINTS)..]))?;
+        let curve = through(&last_apart(&known(&stations), points))?;
         let beyond = curve.after(last.worn, 1.0);
         segments.push(segment((end, 1.0), (last.worn, last.rate), (beyond, curve.rate(beyond))));
         let span = (end.floor() as u64 + 1).min(most.max(1));
         let reached = starts.partition_point(|start| *start <= span as f64).max(1) - 1;
         // Of a path that is not followed to its end, as much of the error as of the cycles.
         let error = error * (span as f64 / end).min(1.0);
-        self.state = stations[reached].state.clone();
+        let state = stations[reached].state.clone();
         let seen =
             starts.into_iter().zip(stations).map(|(start, station)| (start, station.measured)).collect();
-        Some(Path { segments, span, end: None, error: vec![error], seen })
+        let path = Path { segments, span, end: None, error: vec![error], seen };
+        path.is_finite().then(|| {
+            self.state = state;
+            path
+        })
     }
 }
 
@@ -165,6 +176,18 @@ fn pieces<S>(stations: &[Station<S>]) -> Option<Vec<Piece>> {
 
 fn known<S>(stations: &[Station<S>]) -> Vec<Measured> {
     stations.iter().map(|station| Measured { wear: station.worn, rate: station.rate }).collect()
+}
+
+/// The last of measurements and so many in all before it that are apart.
+fn last_apart(known: &[Measured], points: usize) -> Vec<Measured> {
+    let mut taken: Vec<Measured> = Vec::with_capacity(points);
+    for one in known.iter().rev() {
+        let is_apart = taken.last().is_none_or(|last| last.wear - one.wear >= APART * last.rate);
+        if is_apart && taken.len() < points {
+            taken.push(*one);
+        }
+    }
+    taken
 }
 
 fn through(points: &[Measured]) -> Option<Curve> {
