@@ -1,6 +1,7 @@
 //! The fine scale of a life by the equations of motion themselves. In: a mechanism, how a revolution is run.
 //! Out: what one settled revolution wears at a given state of wear. Never knows cycles, draws or thresholds.
 
+mod beginning;
 mod leaving;
 mod measuring;
 mod recurrence;
@@ -24,6 +25,7 @@ use crate::simulate::{
 use crate::system::System;
 use crate::watch::Watch;
 use crate::wear::ContactMeasure;
+use beginning::{Beginning, Known};
 use leaving::leaves;
 use measuring::{Done, Measuring};
 use recurrence::Recurrence;
@@ -58,20 +60,8 @@ pub struct DynamicsSource<'a> {
     /// Of the last measurement, or of the last ones that were made together.
     steadiness: Vec<Vec<Steadiness>>,
     /// The first measurements of a life that begins with unworn joints.
-    beginning: Vec<Known>,
+    beginning: Beginning,
 }
-
-/// A measurement that will be asked for again: every life begins with the same.
-struct Known {
-    joints: Vec<JointWear>,
-    from: Option<Orbit>,
-    measured: Vec<ContactMeasure>,
-    steadiness: Vec<Vec<Steadiness>>,
-    state: Option<Orbit>,
-}
-
-/// So many are kept: those of a first cycle, in steps as long as it.
-const MOST_KNOWN: usize = 4;
 
 impl<'a> DynamicsSource<'a> {
     /// Starts at t = 0 with unworn joints.
@@ -89,7 +79,7 @@ impl<'a> DynamicsSource<'a> {
         let wearing = Wearing::new(description, &runner.clearances());
         let start = runner.state();
         let slow = SlowStates::new(&runner);
-        let (warnings, steadiness, beginning) = (Vec::new(), Vec::new(), Vec::new());
+        let (warnings, steadiness, beginning) = (Vec::new(), Vec::new(), Beginning::default());
         Ok(Self {
             system,
             runner,
@@ -313,8 +303,7 @@ impl WearSource for DynamicsSource<'_> {
         joints: &[JointWear],
         state: &mut Self::State,
     ) -> Result<Vec<ContactMeasure>, RunError> {
-        let is_known = |known: &&Known| known.from == *state && known.joints == joints;
-        if let Some(known) = self.beginning.iter().find(is_known) {
+        if let Some(known) = self.beginning.find(joints, state.as_ref()) {
             state.clone_from(&known.state);
             self.steadiness.clone_from(&known.steadiness);
             return Ok(known.measured.clone());
@@ -325,11 +314,10 @@ impl WearSource for DynamicsSource<'_> {
         self.steadiness.clear();
         let done = measuring.end(self.runner.state(), &self.wearing);
         let measured = self.end(done, state);
-        let begins = from.is_none() || self.beginning.iter().any(|known| known.state == from);
-        if begins && self.beginning.len() < MOST_KNOWN {
+        if self.beginning.wants(from.as_ref()) {
             let (joints, steadiness) = (joints.to_vec(), self.steadiness.clone());
             let (measured, state) = (measured.clone(), state.clone());
-            self.beginning.push(Known { joints, from, measured, steadiness, state });
+            self.beginning.keep(Known { joints, from, measured, steadiness, state });
         }
         Ok(measured)
     }

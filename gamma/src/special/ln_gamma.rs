@@ -16,6 +16,10 @@ pub fn stirling_rest(x: f64) -> f64 {
         / x
 }
 
+/// Shape from which on densities are taken by Stirling's series: at a scatter of a hundredth. As written they are differences of numbers
+/// of the size of the shape, which leaves no digits for a climb to go by.
+pub const LARGE_SHAPE: f64 = 1e4;
+
 /// ln of a ratio that is 1 + `off`: by this where it is near 1, by the ratio where that has digits of `off` no longer.
 pub fn ln_ratio(off: f64, ratio: f64) -> f64 {
     if off.abs() < 0.5 { libm::log1p(off) } else { libm::log(ratio) }

@@ -18,7 +18,7 @@ mod student;
 pub use gamma_ratio::{f_above, gamma_ratio, ln_gamma_ratio_below, ln_rising};
 pub use incomplete::{gamma_p, gamma_q, ln_gamma_p, ln_gamma_p_of_ln, ln_gamma_q};
 pub use inverse_gaussian::inverse_gaussian;
-pub use ln_gamma::{EULER, ln_gamma, ln_gamma_1p, ln_ratio, stirling_rest};
+pub use ln_gamma::{EULER, LARGE_SHAPE, ln_gamma, ln_gamma_1p, ln_ratio, stirling_rest};
 pub use normal::{LN_2_PI, normal_cdf, normal_density, normal_mills, normal_quantile};
 pub use polygamma::{digamma, ln_less_digamma, tetragamma, trigamma, trigamma_rest};
 pub use quantile::{gamma_quantile, ln_gamma_quantile};

@@ -7,11 +7,8 @@ use rand::RngExt;
 use super::super::random_effect::{RandomEffect, RandomLaw};
 use crate::random::{LnGamma, Stream};
 use crate::special::{
-    LN_2_PI, gamma_ratio, ln_gamma, ln_gamma_ratio_below, ln_ratio, ln_rising, stirling_rest,
+    LARGE_SHAPE, LN_2_PI, gamma_ratio, ln_gamma, ln_gamma_ratio_below, ln_ratio, ln_rising, stirling_rest,
 };
-
-/// Shape from which on two terms of Stirling's series for the density are good to 1e-12.
-const LARGE: f64 = 1e4;
 
 /// The rate beta differs.
 #[derive(Clone, Copy, Debug)]
@@ -33,11 +30,11 @@ impl RandomEffect for GammaRate {
 
     fn ln_density(&self, [eta, ln_beta]: [f64; 2], cv: f64, wear: f64) -> f64 {
         let (a, base) = (libm::exp(eta), 1.0 / (cv * cv));
-        if a >= LARGE {
+        if a >= LARGE_SHAPE {
             let (all, x) = (a + base, libm::exp(ln_beta) * wear);
             let off = (x - a) / (x + base);
             // Of ln Gamma(base) as of the others: what Stirling's series leaves of it.
-            let of_base = match base < LARGE {
+            let of_base = match base < LARGE_SHAPE {
                 true => ln_gamma(base) - ((base - 0.5) * libm::log(base) - base + 0.5 * LN_2_PI),
                 false => stirling_rest(base),
             };
@@ -71,7 +68,7 @@ impl RandomEffect for GammaRate {
     /// Places are the logarithm of beta over its mean, in units of cv.
     fn place(&self, logs: [f64; 2], cv: f64, place: f64) -> Option<([f64; 2], f64)> {
         let (shape, ln) = (1.0 / (cv * cv), cv * place);
-        let constant = if shape < LARGE {
+        let constant = if shape < LARGE_SHAPE {
             shape * libm::log(shape) - shape - ln_gamma(shape) + libm::log(cv)
         } else {
             // Stirling's series: the difference of large numbers has no digits left.
