@@ -34,7 +34,7 @@ pub fn read_inputs(table: &CsvTable<'_>, description: &Description) -> Result<Sa
                 return Err(fault(message, help));
             }
             let values = table.numbers_at(place)?;
-            Ok::<Vec<f64>, CsvError>(values.into_iter().map(|value| value * given.size).collect())
+            Ok::<Vec<f64>, CsvError>(values.into_iter().map(|value| given.to_si(value)).collect())
         };
         if matches!(name, "t" | "time") {
             if times.replace(in_si("s")?).is_some() {

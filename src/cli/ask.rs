@@ -12,7 +12,7 @@ use linkwear_runtime::{Run, Watch};
 use serde_json::{Value, json};
 
 use super::arguments::{Arguments, Command};
-use super::failure::{Failure, entries, first_paragraph};
+use super::failure::{Failure, entries, unread_arguments};
 #[cfg(feature = "page")]
 use super::page;
 use super::{check, fit, input, life, plan, predict, simulate, study};
@@ -296,10 +296,7 @@ fn parsed(subcommand: &str, words: &[String], file: &str) -> Result<Command, Fai
     let head = ["linkwear", subcommand].map(str::to_owned);
     let tail = ["--", file].map(str::to_owned);
     let parsed = Arguments::try_parse_from(head.iter().chain(words).chain(&tail));
-    parsed.map(|parsed| parsed.command).map_err(|error| {
-        let text = error.render().to_string();
-        Failure::usage(first_paragraph(&text), text.trim_end())
-    })
+    parsed.map(|parsed| parsed.command).map_err(|error| unread_arguments(&error))
 }
 
 /// Words such as `--help` name no question.

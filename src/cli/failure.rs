@@ -373,18 +373,30 @@ pub fn wrong_arguments(error: &clap::Error, format: Format) -> ExitCode {
             _ => ExitCode::SUCCESS,
         };
     }
-    let text = error.render().to_string();
-    let message = match error.kind() {
-        ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand => "no subcommand given".to_owned(),
-        _ => first_paragraph(&text),
-    };
-    Failure::usage(message, text.trim_end()).report(format)
+    unread_arguments(error).report(format)
 }
 
-/// What clap says before its usage lines, in one line.
-pub(super) fn first_paragraph(text: &str) -> String {
-    let lines = text.lines().map(str::trim).take_while(|line| !line.is_empty());
-    lines.collect::<Vec<_>>().join(" ").trim_start_matches("error: ").to_owned()
+/// What clap says: the message is its first paragraph in one line, the cure what follows (tips, usage, where to ask for more), and
+/// before that the cure of a value that an option does not take.
+pub(super) fn unread_arguments(error: &clap::Error) -> Failure {
+    let text = error.render().to_string();
+    if error.kind() == ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand {
+        return Failure::usage("no subcommand given", text.trim_end());
+    }
+    let mut lines = text.lines();
+    let what: Vec<&str> = lines.by_ref().map(str::trim).take_while(|line| !line.is_empty()).collect();
+    let what = what.join(" ");
+    let what = what.trim_start_matches("error: ");
+    let rest = lines.collect::<Vec<_>>().join("\n").trim().to_owned();
+    // Of a value the cause stands behind the option; a value may have any characters.
+    let cause =
+        what.rfind("': ").filter(|_| error.kind() == ErrorKind::ValueValidation).unwrap_or(what.len());
+    match what_and_cure(&what[cause..]) {
+        (_, "") => Failure::usage(what, rest),
+        (cause_alone, cure) => {
+            Failure::usage(&what[..cause + cause_alone.len()], format!("{cure}\n\n{rest}"))
+        }
+    }
 }
 
 #[cfg(test)]

@@ -88,7 +88,7 @@ fn revolutions(method: Option<Integrator>) -> RevolutionSettings {
 
 /// Size of the unit of a parameter's bounds, and the SI unit.
 fn unit(free: &Free, cases: &Cases) -> (f64, String) {
-    let size = unit_size(&free.unit).map_or(1.0, |unit| unit.size);
+    let size = unit_size(&free.unit).map_or(1.0, |unit| unit.size());
     let column = cases.parameters().iter().find(|column| column.name == free.name);
     (size, column.map_or_else(String::new, |column| column.unit.clone()))
 }

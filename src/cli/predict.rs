@@ -58,7 +58,11 @@ pub fn answer(arguments: &PredictArguments, fit: &FitFile) -> Result<Answer, Fai
         let _ = write!(answer.from, "{join} {name} = {value}");
     }
     let of_fit = fit.warning().into_iter().chain(warning).map(str::to_owned);
-    answer.warnings.splice(0..0, of_fit.chain(fit.far_covariates(&values)));
+    let far = match others.is_empty() {
+        true => fit.far_covariates(&values),
+        false => machine::far(&arguments.fit, fit, &values),
+    };
+    answer.warnings.splice(0..0, of_fit.chain(far));
     let mut options = json!({
         "threshold": arguments.threshold, "current": arguments.current, "at": arguments.at,
         "covariates": covariates(&arguments.covariate),

@@ -157,7 +157,7 @@ impl Range {
             let units = [&unit, &last_unit];
             std::array::from_fn(|end| format!("{} [{}]", both[end].turning.counted(), units[end]))
         } else {
-            return Ok(Self { ends: [a, b * of_last.size / of_first.size], unit, count });
+            return Ok(Self { ends: [a, of_last.to_unit(b, of_first)], unit, count });
         };
         let [first, last] = told;
         Err(AxisError::Ends { text: written.to_owned(), first, last })
@@ -221,6 +221,8 @@ mod tests {
         assert_eq!(grid("speed=5Hz..20Hz:4"), ["5 Hz", "10 Hz", "15 Hz", "20 Hz"]);
         assert_eq!(grid("speed = 5..20 Hz:2"), ["5 Hz", "20 Hz"]);
         assert_eq!(grid("L=1 mm..0.002 m:3"), ["1 mm", "1.5 mm", "2 mm"]);
+        // 33 * 1e-6 / 1e-3 is 0.032999999999999995.
+        assert_eq!(grid("c0=0.01 mm..33 um:2"), ["0.01 mm", "0.033 mm"]);
         assert_eq!(grid("x=-0.1..0.3:5"), ["-0.1", "0", "0.1", "0.2", "0.3"].map(str::to_owned));
         assert_eq!(grid("k=1e-9..3e-9:3"), ["1e-9", "2e-9", "3e-9"]);
         assert_eq!(grid("c0=5 um, 10 um"), ["5 um", "10 um"]);

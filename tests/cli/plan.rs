@@ -171,6 +171,13 @@ fn an_interval_that_is_given_is_told_as_it_is() {
         let told = plan(&fit, &["--threshold", "20", "--inspection", "5", "--interval", interval]);
         assert_eq!(told["by_looks"]["interval"].to_string(), interval);
     }
+    let lives: String = (1..=200).map(|life| format!("{life}\n")).collect();
+    let lives = folder.write("lives.csv", &format!("life [cycles]\n{lives}"));
+    for (file, more) in [(&fit, ["--threshold", "20"]), (&lives, ["--downtime", "3"])] {
+        let costs = ["--preventive", "100", "--failure", "900", "--inspection", "5", "--interval", "0.0001"];
+        let told = linkwear(&[&["plan", file], &more[..], &costs].concat());
+        assert!(told.err.contains("with a look every 0.0001, parts"), "{}", told.err);
+    }
 }
 
 #[test]

@@ -277,6 +277,25 @@ fn a_covariate_far_outside_the_data_is_warned_of() {
             assert_eq!(is_told(&told["warnings"].to_string()), is_far, "{told}");
         }
     }
+    // Of two fits that know the load, 12 is far outside the data of the second alone: it is named.
+    let near = folder.write("near.csv", &rows.replace(",5\n", ",3\n"));
+    let other = folder.path("near.json");
+    let fitted = linkwear(&[&["fit", &near, "--out", &other], &columns[..]].concat());
+    assert_eq!(fitted.code, 0, "{}", fitted.err);
+    let warned = |first: &str, also: &str| {
+        let also = format!("{also}:50");
+        let load = ["--threshold", "100", "--covariate", "load=12", "--also", &also, "--format", "json"];
+        let told = linkwear(&[&["predict", first], &load[..]].concat()).json();
+        let warnings = told["warnings"].as_array().expect("a list");
+        warnings.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    for warnings in [warned(&fit, &other), warned(&other, &fit)] {
+        let far: Vec<_> = warnings.iter().filter(|text| text.contains("far outside")).collect();
+        assert!(far.len() == 1 && far[0].contains("near.json: covariate"), "{warnings:?}");
+    }
+    // Joints by one fit are told of it once.
+    let far = warned(&other, &other).into_iter().filter(|text| text.contains("far outside"));
+    assert_eq!(far.count(), 1);
 }
 
 /// A fit with a covariate, ln alpha and its power uncertain and correlated.

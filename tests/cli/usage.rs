@@ -111,7 +111,25 @@ fn wrong_usage_exits_with_2_and_says_so_in_json_too() {
         let answer = linkwear(&[case, &["--format", "json"][..]].concat());
         assert_eq!(answer.code, 2, "{case:?}");
         assert_eq!(answer.errors()[0]["code"], "C0001", "{case:?}");
+        let text = |key: &str| answer.errors()[0][key].as_str().expect("a text").to_owned();
+        let (message, help) = (text("message"), text("help"));
+        assert!(!help.is_empty() && !help.contains("error:"), "{case:?}: {help}");
+        assert!(!help.contains(&message), "{case:?}: {message}: {help}");
     }
+    // What an option's value lacks is a cause, what to write instead a cure.
+    let answer =
+        linkwear(&["study", "x.toml", "--of", "steps", "--vary", "a=1;2; 3..x:2", "--format", "json"]);
+    let error = &answer.errors()[0];
+    let text = |key: &str| error[key].as_str().expect("a text");
+    assert!(text("message").ends_with("the end `1;2; 3` of a range is no number with a unit"), "{error}");
+    assert!(text("help").starts_with("write NAME=A..B:N, as"), "{error}");
+    let answer = linkwear(&["simulate", "x.toml", "--turn", "1", "--format", "json"]);
+    let error = &answer.errors()[0];
+    assert_eq!(error["message"], "unexpected argument '--turn' found");
+    assert!(
+        error["help"].as_str().is_some_and(|help| help.starts_with("tip: a similar argument")),
+        "{error}"
+    );
 }
 
 #[test]

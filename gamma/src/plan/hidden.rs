@@ -101,14 +101,16 @@ pub fn best_hidden(
         Some(interval) => vec![libm::log(interval)],
         None => (0..TRIED).map(|at| libm::log(ends.0) + step * at as f64).collect(),
     };
+    // One that is given is taken as it is, digit by digit.
+    let told = |log: f64| interval.unwrap_or_else(|| libm::exp(log));
     let best_of = |last: Option<usize>| -> Result<HiddenPlan, PlanError> {
         // The most looks that a life can have: if they can be counted, all can.
-        hidden_cost(life, costs, looks, libm::exp(logs[0]), last)?;
+        hidden_cost(life, costs, looks, told(logs[0]), last)?;
         let rate = |log: f64| {
-            hidden_cost(life, costs, looks, libm::exp(log), last).map_or(f64::INFINITY, |cost| cost.rate)
+            hidden_cost(life, costs, looks, told(log), last).map_or(f64::INFINITY, |cost| cost.rate)
         };
         let log = least(&logs, &mut |log| rate(log)).0;
-        let chosen = interval.unwrap_or(libm::exp(log));
+        let chosen = told(log);
         let near = |end: f64| (chosen / end - 1.0).abs() < 1e-3;
         let cost = hidden_cost(life, costs, looks, chosen, last)?;
         Ok(HiddenPlan {

@@ -236,6 +236,8 @@ codes! {
     TooFast = "W0126",
     /// Joints of one machine whose cycles stand for different numbers of revolutions.
     UnequalCycles = "W0127",
+    /// A spring whose stiffness is below zero.
+    NegativeStiffness = "W0128",
 }
 
 impl Code {

@@ -25,6 +25,7 @@ const CURES: &[(&str, &str)] = &[
     ("unclosed table", "a heading ends with `]`: `[points]`"),
     ("unclosed inline table", "write `}` behind the last entry of the table"),
     ("inline table", "a table is `{ key = value, key = value }`, a list `[1, 2]`"),
+    ("unclosed array table", "a heading has one `[` before its name and one `]` behind it: `[points]`"),
     ("unclosed array", "write `]` behind the last entry of the list"),
     ("key with no value", "an entry is `key = value`, a heading `[points]`, a comment begins with `#`"),
     ("unquoted key", "names have letters a to z and A to Z, digits and `_`"),
@@ -59,14 +60,19 @@ pub(super) fn syntax_errors(source: &SourceFile, errors: &[Error]) -> Vec<Diagno
             list.push(Diagnostic::new(Code::NotToml, message).at(span, "").help(help));
         }
     };
-    let places = |error: &Error| error.span().map_or(Span::default(), Span::from);
+    let places = |error: &Error| {
+        let at = error.span().map_or(Span::default(), Span::from);
+        // The parser tells a bracket that is not closed where the text ends.
+        let open = is_unclosed(error.message()).then(|| text.get(..at.start).and_then(innermost)).flatten();
+        open.map_or(at, |open| Span { start: open, end: open + 1 })
+    };
     let mut errors: Vec<_> = errors.iter().map(|error| (places(error), error.message())).collect();
     // A text without its second quote takes the brackets behind it with it.
     errors.sort_by_key(|(_, message)| !message.contains("basic string"));
     let open = open_before(text, &errors);
     for (span, message) in errors {
-        // All that follows an open bracket the parser takes for its entries.
-        if open.is_none_or(|(open, _)| span.start <= open.start) {
+        // All that follows an open bracket the parser takes for its entries; that it is open is told below.
+        if open.is_none_or(|(open, _)| span.start <= open.start && !is_unclosed(message)) {
             tell(span, &|| told(text, span, message));
         }
     }
@@ -80,6 +86,54 @@ pub(super) fn syntax_errors(source: &SourceFile, errors: &[Error]) -> Vec<Diagno
         });
     }
     list
+}
+
+fn is_unclosed(message: &str) -> bool {
+    message.contains("unclosed inline table")
+        || message.contains("unclosed array") && !message.contains("unclosed array table")
+}
+
+/// The innermost bracket that a text leaves open; brackets in texts and comments are none.
+fn innermost(text: &str) -> Option<usize> {
+    let mut open = Vec::new();
+    let mut at = 0;
+    while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
+        let length = rest.chars().next().map_or(1, char::len_utf8);
+        at += match rest.as_bytes()[0] {
+            b'#' => rest.find('\n').unwrap_or(rest.len()),
+            b'"' | b'\'' => quoted(rest),
+            bracket => {
+                match bracket {
+                    b'[' | b'{' => open.push(at),
+                    b']' | b'}' => drop(open.pop()),
+                    _ => {}
+                }
+                length
+            }
+        };
+    }
+    open.pop()
+}
+
+/// The length of the text in quotes that this begins with; where its end is missing, that of the line.
+fn quoted(text: &str) -> usize {
+    let quote = &text[..1];
+    let long = quote.repeat(3);
+    let is_long = text.starts_with(&long);
+    let ends = if is_long { &*long } else { quote };
+    let mut at = ends.len();
+    while let Some(rest) = text.get(at..).filter(|rest| !rest.is_empty()) {
+        if rest.starts_with(ends) {
+            return at + ends.len();
+        }
+        if !is_long && rest.starts_with('\n') {
+            return at;
+        }
+        // In double quotes a backslash takes the next character with it.
+        let passed = if quote == "\"" && rest.starts_with('\\') { 2 } else { 1 };
+        at += rest.chars().take(passed).map(char::len_utf8).sum::<usize>();
+    }
+    text.len()
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -206,7 +260,15 @@ mod tests {
             ("a = [01]", &[((1, 6), "no zero before")]),
             ("a = \"\\m\"", &[((1, 7), "backslash")]),
             ("[a\nb = 1", &[((1, 3), "heading ends")]),
-            ("a = { b = 1\n", &[((1, 12), "`}`")]),
+            // A bracket that is not closed is told where it is, not where the text ends.
+            ("a = { b = 1\n", &[((1, 5), "`}`")]),
+            ("spec = 1\na = [1,\n2\n\n# ]\n", &[((2, 5), "`]` behind the last entry")]),
+            ("a = [[1, 2], [3,\n4\n", &[((1, 14), "`]` behind the last entry")]),
+            ("a = { b = ['[', \"\\\"]\", 2\n\n", &[((1, 11), "`]` behind the last entry")]),
+            ("a = \"\"\"\n[{\"\"\"\nä = 1\nb = {\n", &[((3, 1), "names have"), ((4, 5), "`}`")]),
+            ("a = [1, \"x]\" # ]", &[((1, 5), "`]` behind the last entry")]),
+            ("[[zz\nb = 1", &[((1, 5), "a heading has one `[`")]),
+            ("[[zz]\nb = 1", &[((1, 6), "a heading has one `[`")]),
             ("a = { b = 1 c = 2 }", &[((1, 15), "comma")]),
             ("a = { b = (1, 2), c = 3 }", &[((1, 17), "a list `[1, 2]`")]),
             ("a = [\"1\" \"2\"]\nb = [1,\n2\n3]", &[((1, 10), "comma"), ((4, 1), "comma")]),

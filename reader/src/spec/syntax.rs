@@ -9,12 +9,14 @@
 mod expression;
 mod lex;
 mod parser;
+mod unit_size;
 mod units;
 
 pub use expression::{Expression, Form, Operator, Relation, SyntaxError};
 
-use super::dimension::Dimension;
-use super::turning::Turning;
+pub use unit_size::UnitSize;
+
+use super::unit::Unit;
 
 /// Longest formula [bytes]: far above any real one.
 const LONGEST: usize = 2000;
@@ -32,30 +34,10 @@ pub fn as_written(text: &str) -> Option<(f64, &str)> {
     }
 }
 
-/// What a unit is, as a heading or an option gives it alone.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct UnitSize {
-    /// How much it is in SI.
-    pub size: f64,
-    /// Its dimension.
-    pub dimension: Dimension,
-    /// Turns and angles in it: Hz and rad/s have one dimension, and differ by 2 pi.
-    pub turning: Turning,
-}
-
-impl UnitSize {
-    /// No unit.
-    pub const ONE: Self =
-        Self { size: 1.0, dimension: Dimension::NONE, turning: Turning { turns: 0, angles: 0 } };
-}
-
 /// Reads a unit; `1` is none.
 pub fn unit_size(unit: &str) -> Option<UnitSize> {
-    let text = if unit == "1" { unit.to_owned() } else { format!("1 {unit}") };
-    match parse_expression(&text, &|_| false).ok()?.form {
-        Form::Number { value: size, dimension, turning, .. } => Some(UnitSize { size, dimension, turning }),
-        _ => None,
-    }
+    let read = |text: &str| parser::unit(&lex::tokens(text).ok()?, text.len());
+    Some(UnitSize::of(if unit == "1" { Unit::ONE } else { read(unit).filter(|_| unit.len() <= LONGEST)? }))
 }
 
 /// Reads a formula. `is_name` says whether a word is a name of the file; it decides `2 N*m`.
@@ -72,6 +54,7 @@ pub fn parse_expression(text: &str, is_name: &dyn Fn(&str) -> bool) -> Result<Ex
 
 #[cfg(test)]
 mod tests {
+    use super::super::dimension::Dimension;
     use super::*;
 
     fn read(text: &str) -> Result<Expression, SyntaxError> {

@@ -134,11 +134,12 @@ pub fn inspections(
     Ok(all)
 }
 
-/// How much of an SI unit another is; nothing if it is of another kind. The machine's speed is one, whether a gauge counts turns
+/// Numbers of a unit in an SI unit; nothing if it is of another kind. The machine's speed is one, whether a gauge counts turns
 /// of it or radians.
-fn in_terms_of(si: &str, unit: UnitSize) -> Option<f64> {
+fn in_terms_of(si: &str, unit: UnitSize) -> Option<impl Fn(f64) -> f64> {
     let own = unit_size(si).unwrap_or(UnitSize::ONE);
-    (unit.dimension == own.dimension).then(|| unit.size * unit.turning.in_terms_of(own.turning))
+    let turns = unit.turning.in_terms_of(own.turning);
+    (unit.dimension == own.dimension).then_some(move |number| unit.to_si(number) * turns)
 }
 
 /// A column in SI; its unit stands in its title, or it has none where there is none. Degrees and radians are of the dimension of a pure
@@ -156,11 +157,11 @@ fn in_si(table: &CsvTable<'_>, place: usize, si: &str) -> Result<Vec<f64>, Failu
             return Err(fault(table, format!("column `{title}` has no unit"), &help));
         }
     };
-    let Some(size) = unit_size(unit).and_then(|unit| in_terms_of(si, unit)) else {
+    let Some(own) = unit_size(unit).and_then(|unit| in_terms_of(si, unit)) else {
         let help = format!("a unit of the same kind as {si} is needed");
         return Err(fault(table, format!("column `{title}`: `{unit}` is no unit of `{name}`"), &help));
     };
-    Ok(table.numbers_at(place)?.into_iter().map(|value| value * size).collect())
+    Ok(table.numbers_at(place)?.into_iter().map(own).collect())
 }
 
 /// The channel of a column's name.
@@ -197,7 +198,7 @@ fn level_in_si(option: &str, text: &str, si: &str) -> Result<f64, Failure> {
             "" => return None,
             unit => unit_size(unit)?,
         };
-        in_terms_of(si, unit).map(|size| value * size)
+        in_terms_of(si, unit).map(|own| own(value))
     });
     found.filter(|level| *level > 0.0 && level.is_finite()).ok_or_else(|| {
         let help = if si == "1" {
@@ -223,8 +224,9 @@ mod tests {
 
     #[test]
     fn speeds_in_turns_and_in_radians_are_taken_as_the_output_has_them() {
-        let size =
-            |si: &str, unit: &str| unit_size(unit).and_then(|unit| in_terms_of(si, unit)).unwrap_or(0.0);
+        let size = |si: &str, unit: &str| {
+            unit_size(unit).and_then(|unit| in_terms_of(si, unit)).map_or(0.0, |own| own(1.0))
+        };
         let tau = std::f64::consts::TAU;
         for (si, unit, expected) in [
             ("rad/s", "rpm", tau / 60.0),

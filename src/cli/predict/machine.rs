@@ -68,8 +68,12 @@ pub fn machine(
                 .to_owned(),
         );
     }
-    for (other, joint) in others.iter().zip(&arguments.also) {
-        life.warnings.extend(other.far_covariates(&values_of(arguments, other)));
+    for (at, (other, joint)) in others.iter().zip(&arguments.also).enumerate() {
+        let mut before =
+            std::iter::once(&arguments.fit).chain(arguments.also[..at].iter().map(|also| &also.fit));
+        if before.all(|before| *before != joint.fit) {
+            life.warnings.extend(far(&joint.fit, other, &values_of(arguments, other)));
+        }
         // Units are words of the data: two for one unit are no fault.
         if !fit.exposure_unit.is_empty() && fit.exposure_unit != other.exposure_unit {
             life.warnings.push(format!(
@@ -82,6 +86,12 @@ pub fn machine(
         }
     }
     Ok(Some(Joints { names: names(files.map(AsRef::as_ref)), life, others: told }))
+}
+
+/// Warnings of covariates far outside the data of one fit of several, with its file.
+pub fn far(file: &Path, fit: &FitFile, values: &[(String, f64)]) -> Vec<String> {
+    let told = fit.far_covariates(values).into_iter();
+    told.map(|warning| format!("{}: {warning}", file.display())).collect()
 }
 
 /// The values of the covariates of one fit.

@@ -194,6 +194,9 @@ impl Resolver<'_> {
         for formula in formulas.iter().filter(|_| !value.signed && !value.is_missing(spec)) {
             self.check_positive(formula, value.zero, &what);
         }
+        for formula in formulas.iter().filter(|_| value.signed && value.key == "stiffness") {
+            self.warn_pushing(formula, &what);
+        }
         formulas
     }
 

@@ -198,6 +198,7 @@ impl Resolver<'_> {
                 continue;
             };
             let stiffness = self.formula(stiffness, Some(is.stiffness()), Allowed::PARAMETERS, &what);
+            self.warn_pushing(&stiffness, &place("stiffness", "the spring of joint", name));
             let rest = match rest {
                 Some(rest) => {
                     self.warn_degrees(rest, is, &what);

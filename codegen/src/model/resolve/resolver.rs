@@ -168,6 +168,19 @@ impl Resolver<'_> {
             self.refuse(Code::NotPositive, formula.span, message).label(need);
         }
     }
+
+    /// Tells of a spring whose stiffness is below zero: it can be, and is seldom meant.
+    pub(super) fn warn_pushing(&mut self, stiffness: &Formula, what: &str) {
+        if self.value(stiffness) < 0.0 {
+            let message = format!(
+                "{what} is {}: the spring pushes away from where it is unloaded",
+                self.told(stiffness)
+            );
+            self.refuse(Code::NegativeStiffness, stiffness.span, message).help(
+                "take the sign away; of a mechanism that snaps over, where it is meant, `allow = [\"W0128\"]` in [check] says so",
+            );
+        }
+    }
 }
 
 /// `key` of `what` `name`, as messages call a place.

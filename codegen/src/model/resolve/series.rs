@@ -73,13 +73,13 @@ impl Resolver<'_> {
         let (_, header) = lines.next().ok_or("it is empty")?;
         let titles: Vec<&str> = cells(header).collect();
         let mut time = None;
-        let mut places: Vec<(usize, usize, f64)> = Vec::new();
+        let mut places: Vec<(usize, usize, UnitSize)> = Vec::new();
         for (at, title) in titles.iter().enumerate() {
             let (name, unit) =
                 title.strip_suffix(']').and_then(|rest| rest.rsplit_once('[')).unwrap_or((title, "1"));
             let (name, unit) = (name.trim(), unit.trim());
-            let UnitSize { size, dimension, turning } =
-                unit_size(unit).ok_or_else(|| format!("`{unit}` of column `{title}` is no unit"))?;
+            let size = unit_size(unit).ok_or_else(|| format!("`{unit}` of column `{title}` is no unit"))?;
+            let UnitSize { dimension, turning, .. } = size;
             if matches!(name, "t" | "time") {
                 if dimension != Dimension::TIME || time.replace((at, size)).is_some() {
                     return Err("one column gives the time, `t [s]`".to_owned());
@@ -112,9 +112,9 @@ impl Resolver<'_> {
         let (mut times, mut columns) = (Vec::new(), vec![Vec::new(); places.len()]);
         for (line, row) in lines {
             let cells: Vec<&str> = cells(row).collect();
-            let number = |at: usize, size: f64| {
+            let number = |at: usize, size: UnitSize| {
                 let value = cells.get(at).and_then(|cell| cell.parse::<f64>().ok());
-                let value = value.map(|value| value * size).filter(|value| value.is_finite());
+                let value = value.map(|value| size.to_si(value)).filter(|value| value.is_finite());
                 value.ok_or_else(|| format!("line {line}: column `{}` has no number", titles[at]))
             };
             let now = number(time_at, second)?;

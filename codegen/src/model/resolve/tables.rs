@@ -171,8 +171,8 @@ fn columns_of(text: &str) -> Result<Columns, String> {
         if cells.len() != 2 {
             return Err(format!("line {line} has {} cells, not two", cells.len()));
         }
-        for ((column, UnitSize { size, .. }), cell) in columns.iter_mut().zip(units).zip(cells) {
-            let number = cell.parse::<f64>().ok().map(|number| number * size);
+        for ((column, unit), cell) in columns.iter_mut().zip(units).zip(cells) {
+            let number = cell.parse::<f64>().ok().map(|number| unit.to_si(number));
             let number = number.filter(|number| number.is_finite());
             column.0.push(number.ok_or_else(|| format!("line {line} has a cell that is no number"))?);
         }

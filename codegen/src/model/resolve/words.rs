@@ -67,7 +67,7 @@ impl Resolver<'_> {
             Some(parameter) => parameter.written.as_ref()?.1.clone(),
             None => as_written(text.get(leaf.range.clone())?)?.1.to_owned(),
         };
-        let size = unit_size(&unit).filter(|size| size.dimension == dimension)?.size;
+        let size = unit_size(&unit).filter(|size| size.dimension == dimension)?.size();
         // Degrees of temperature begin elsewhere.
         let from = self.read_again(&format!("0 {unit}"))?.quantity()?.0;
         (!unit.is_empty() && from == 0.0).then_some((size, unit))

@@ -395,4 +395,21 @@ hardness = "3.5 GPa"
 threshold = "80 um"
 revolutions_per_cycle = 1e6"#,
     },
+    Explanation {
+        code: Code::NegativeStiffness,
+        file: File::Swing,
+        text: "A spring with a stiffness below zero pushes away from where it is unloaded, the more the further. A mechanism that \
+               snaps over can be drawn so, and `allow` in [check] then says that it is meant; else a sign is wrong, and the \
+               motion runs away. Cables, bushings, springs of balls and stops cannot have one.",
+        wrong: r#"[points]
+P = { at = ["1 m", "-0.5 m", 0], on = "ground" }
+
+[forces]
+coil = { spring = ["ground", "bar"], at = ["P", "A"], stiffness = "-2 kN/m", length = "500 mm" }"#,
+        right: r#"[points]
+P = { at = ["1 m", "-0.5 m", 0], on = "ground" }
+
+[forces]
+coil = { spring = ["ground", "bar"], at = ["P", "A"], stiffness = "2 kN/m", length = "500 mm" }"#,
+    },
 ];

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::super::dimension::Dimension;
 use super::super::rockwell::{RANGE, pressure};
 use super::super::turning::Turning;
+use super::super::unit::Unit;
 use super::expression::{Expression, Form, Operator, SyntaxError, fault};
 use super::lex::{Kind, Token};
 
@@ -35,6 +36,13 @@ pub(super) fn parse(
     }
     whole.shadowed = parser.shadowed;
     Ok(whole)
+}
+
+/// A unit without a number, if that is all.
+pub(super) fn unit(tokens: &[Token], length: usize) -> Option<Unit> {
+    let mut parser = Parser { tokens, next: 0, length, depth: 0, is_name: &|_| false, shadowed: Vec::new() };
+    let unit = parser.unit().ok()?;
+    parser.peek().is_none().then_some(unit)
 }
 
 pub(super) struct Parser<'a> {
