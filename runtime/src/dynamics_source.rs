@@ -176,16 +176,22 @@ impl<'a> DynamicsSource<'a> {
         let recurrence = self.recurrence()?;
         self.runner.restore(from.map_or(&self.start, |orbit| &orbit.turn))?;
         self.slow.forget();
-        let mut far = 1.0_f64;
+        let (mut far, mut is_new) = (1.0_f64, false);
         for ((at, unworn), joint) in self.wearing.joints.iter().zip(joints) {
             let surfaces = [joint.profile.clone(), joint.journal.clone()];
             let worn = joint.clearance - unworn;
             self.runner.set_worn_pair(*at, worn, surfaces)?;
-            let before = from.and_then(|orbit| orbit.turn.joints.get(*at)).map_or(0.0, |joint| joint.worn);
+            let known = from.and_then(|orbit| orbit.turn.joints.get(*at));
+            is_new |= known.is_some_and(|known| {
+                known.worn != worn || known.profile != joint.profile || known.journal != joint.journal
+            });
+            let before = known.map_or(0.0, |joint| joint.worn);
             let ratio = (unworn + worn) / (unworn + before);
             far = far.max(ratio).max(1.0 / ratio);
         }
-        for _ in 0..from.map_or(recurrence.after, |orbit| recurrence.every * orbit.lasting) {
+        // A swing that lasts has nothing to get over where no surface is another.
+        let lasting = |orbit: &Orbit| if is_new { recurrence.every * orbit.lasting } else { 0 };
+        for _ in 0..from.map_or(recurrence.after, lasting) {
             self.one_turn((0.0, 0.0))?;
         }
         if from.is_none() && recurrence.after > 0 {

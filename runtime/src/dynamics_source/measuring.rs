@@ -35,6 +35,8 @@ pub(super) struct Measuring {
     rooms: Vec<f64>,
     stage: Stage,
     done: u32,
+    /// The part of the measurement that was done when it was begun anew.
+    before: f64,
     /// The last turn that settled.
     last: Option<TurnMeasures>,
     /// Those that are measured.
@@ -85,6 +87,7 @@ impl Measuring {
             rooms,
             stage,
             done: 0,
+            before: 0.0,
             last,
             turns,
             doubts: None,
@@ -98,7 +101,8 @@ impl Measuring {
             Some(settle) => f64::from(done) / (f64::from(settle) + self.average as f64),
             None => 1.0 - 0.5_f64.powi(i32::try_from(done).unwrap_or(i32::MAX)),
         };
-        (part(self.done), part(self.done + 1))
+        let of_rest = |part: f64| self.before + (1.0 - self.before) * part;
+        (of_rest(part(self.done)), of_rest(part(self.done + 1)))
     }
 
     /// A turn that does not count has left journals there.
@@ -155,6 +159,7 @@ impl Measuring {
         self.settling.is_tried(self.rooms.clone(), left.as_ref());
         self.stand = stand;
         if let Some(Left { doubts, .. }) = left {
+            (self.before, _) = self.next();
             (self.stage, self.done, self.last, self.doubts) = (Stage::Settles, 0, None, doubts);
             self.turns.clear();
         }

@@ -273,8 +273,11 @@ impl Resolver<'_> {
         let speeds = written.iter().map(|speed| number("friction_speed", Some(speed), SPEED, true, 0.0));
         let speeds: Vec<f64> = speeds.collect();
         self.check_onset(name, own, &speeds);
-        let slope =
-            self.fixed(name, "friction_slope", own.friction_slope.as_ref(), Dimension::of(-1, 0, 1), 0.0);
+        let slope = own.friction_slope.as_ref().map_or(0.0, |written| {
+            let what = place("friction_slope", "joint", name);
+            let slope = self.formula(written, Some(Dimension::of(-1, 0, 1)), Allowed::CONSTANTS, &what);
+            self.value(&slope)
+        });
         let onset = Onset::new(speeds.first().copied().unwrap_or(FRICTION_SPEED), speeds.get(1).copied());
         Some((Strength::new(coefficient, at_rest), onset, slope))
     }
