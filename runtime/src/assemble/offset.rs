@@ -2,7 +2,6 @@
 
 use super::held::frozen_speeds;
 use super::state::State;
-use crate::clearance_joint::Clearance;
 use crate::evaluate::Evaluator;
 use crate::linear::Orthogonal;
 use crate::system::CONTACT_MOTION;
@@ -62,12 +61,12 @@ fn free_by(evaluator: &Evaluator<'_>, columns: &[[Vec<f64>; 3]]) -> Vec<bool> {
         directions.factor(&rows, freedoms, fixed.len(), NO_DIRECTION);
         directions.rank() == freedoms
     };
-    let joints = evaluator.clearances().joints();
-    let is_free = |(column, joint): (&[Vec<f64>; 3], &Clearance)| {
+    let freedoms = evaluator.clearances().joints().iter().map(|joint| joint.freedoms());
+    let is_free = |(column, freedoms): (&[Vec<f64>; 3], usize)| {
         let is_fixed = (0..fixed.len()).any(|speed| fixed[speed] && moved(column, speed));
-        !is_fixed || moves_everywhere(column, joint.freedoms())
+        !is_fixed || moves_everywhere(column, freedoms)
     };
-    columns.iter().zip(joints).map(is_free).collect()
+    columns.iter().zip(freedoms).map(is_free).collect()
 }
 
 /// Joint and axis of every component of their offsets.
