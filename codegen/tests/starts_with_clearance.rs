@@ -40,6 +40,35 @@ fn start<const N: usize>(compiled: &Compiled, names: [&str; N]) -> [f64; N] {
     })
 }
 
+/// A link that bends moves the pin at its end in its bush, and starts unbent.
+#[test]
+fn a_link_that_bends_is_put_together_with_the_clearance_at_its_end() {
+    let (ideal, _) = FOUR_BAR.split_once("[clearance.R2]").expect("clearances");
+    let bends =
+        "density = \"7850 kg/m^3\", flexible = { modes = 2, young = \"210 GPa\", damping = 0.02 } }\nrocker";
+    let ideal = ideal.replace("density = \"7850 kg/m^3\" }\nrocker", bends);
+    let [coupler, rocker] = [55.77_f64.to_radians(), 97.18_f64.to_radians()];
+    for clearance in &CLEARANCES[1..] {
+        for guess in ["97 deg", "90 deg", "20 deg"] {
+            let text = ideal.replace("97 deg", guess) + clearance;
+            let compiled = compiled_with(text, &[]);
+            let (system, parameters) = (compiled.interpreter(), compiled.parameters());
+            let mut evaluator =
+                Evaluator::new(&system, compiled.description(), &parameters).expect("it fits");
+            let state = assemble_static_contact(&mut evaluator, 0.0).expect("it closes");
+            // Two clearances of 20 um at arms of 200 mm and more turn joints by some 1e-4.
+            let [found_2, found_4] = start(&compiled, ["R2.q", "R4.q"]);
+            let apart = (found_2 - coupler).abs().max((found_4 - rocker).abs());
+            assert!(apart < 1e-3, "{clearance} from {guess}: {found_2} {found_4}");
+            // It rests where its load presses it.
+            evaluator.evaluate_contacts(0.0, &state.q, &state.v);
+            let touch = evaluator.clearances().contacts()[0];
+            let depth = touch.penetration() / touch.clearance;
+            assert!(depth > 0.0 && depth < 1.0, "{clearance} from {guess}: {depth}");
+        }
+    }
+}
+
 #[test]
 fn loops_with_clearance_close_on_the_branch_of_the_guess() {
     // The triangle of the file: 55.8 deg at the crank pin and 97.2 deg outside the angle at the rocker's bearing, or mirrored.

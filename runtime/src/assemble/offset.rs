@@ -3,10 +3,13 @@
 use super::held::frozen_speeds;
 use super::state::State;
 use crate::evaluate::Evaluator;
+use crate::linear::Orthogonal;
 use crate::system::CONTACT_MOTION;
 
 /// A speed that moves an offset by less than this [m/rad, 1] does not move it.
 const MOVES: f64 = 1e-9;
+/// Directions in which offsets move by less than this part of the largest are none.
+const NO_DIRECTION: f64 = 1e-9;
 
 /// How the offset of every contact moves with every free speed: `[joint][axis][speed]`, exactly, because rates
 /// are linear in the speeds.
@@ -44,11 +47,26 @@ pub(super) fn free_contacts(evaluator: &mut Evaluator<'_>, t: f64, q: &[f64]) ->
     free_by(evaluator, &columns)
 }
 
-/// The same by how offsets move with the speeds.
+/// The same by how offsets move with the speeds. A start value fixes an offset that moves with it, unless what is free moves the offset
+/// in all its directions without it: a link that is demanded to start unbent turns.
 fn free_by(evaluator: &Evaluator<'_>, columns: &[[Vec<f64>; 3]]) -> Vec<bool> {
     let fixed = frozen_speeds(evaluator);
     let moved = |column: &[Vec<f64>; 3], speed: usize| column.iter().any(|row| row[speed].abs() > MOVES);
-    columns.iter().map(|column| !(0..fixed.len()).any(|speed| fixed[speed] && moved(column, speed))).collect()
+    let mut directions = Orthogonal::new(3, fixed.len());
+    let mut moves_everywhere = |column: &[Vec<f64>; 3], freedoms: usize| {
+        let free = |row: &Vec<f64>| -> Vec<f64> {
+            row.iter().zip(&fixed).map(|(by, fixed)| if *fixed { 0.0 } else { *by }).collect()
+        };
+        let rows: Vec<f64> = column[..freedoms].iter().flat_map(free).collect();
+        directions.factor(&rows, freedoms, fixed.len(), NO_DIRECTION);
+        directions.rank() == freedoms
+    };
+    let freedoms = evaluator.clearances().joints().iter().map(|joint| joint.freedoms());
+    let is_free = |(column, freedoms): (&[Vec<f64>; 3], usize)| {
+        let is_fixed = (0..fixed.len()).any(|speed| fixed[speed] && moved(column, speed));
+        !is_fixed || moves_everywhere(column, freedoms)
+    };
+    columns.iter().zip(freedoms).map(is_free).collect()
 }
 
 /// Joint and axis of every component of their offsets.

@@ -47,11 +47,7 @@ impl<'a> Wearing<'a> {
 
     /// How much room their journals have, by these joints [m].
     pub fn rooms(&self, joints: &[JointWear]) -> Vec<f64> {
-        self.joints
-            .iter()
-            .zip(joints)
-            .map(|((_, unworn), joint)| joint.clearance.max(unworn + joint.wear))
-            .collect()
+        self.joints.iter().zip(joints).map(|((_, unworn), joint)| room(*unworn, joint)).collect()
     }
 
     /// By how much of its wear a turn differs from the one before, of the joint where that is most.
@@ -107,5 +103,29 @@ impl<'a> Wearing<'a> {
     fn wear(&self, at: usize, turn: &TurnMeasures) -> f64 {
         let wear = self.description.contacts[at].wear.as_ref();
         wear.map_or(0.0, |wear| WearOf::described(wear).of(&turn.joints[at]))
+    }
+}
+
+/// How much room a journal has [m]: its clearance. Wear that is kept by angle opens the gap beside that; any other opens nothing but the
+/// clearance, by its feedback.
+fn room(unworn: f64, joint: &JointWear) -> f64 {
+    let by_angle = joint.profile.is_some() || joint.journal.is_some();
+    if by_angle { joint.clearance.max(unworn + joint.wear) } else { joint.clearance }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::wear::Profile;
+
+    #[test]
+    fn wear_that_opens_no_gap_gives_a_journal_no_room() {
+        let unworn = 1e-5;
+        let joint = |clearance, profile| JointWear { clearance, wear: 3e-5, profile, journal: None };
+        // By no feedback, and by all of it.
+        assert_eq!(room(unworn, &joint(unworn, None)), unworn);
+        assert_eq!(room(unworn, &joint(4e-5, None)), 4e-5);
+        let profile = Profile::unworn(36).expect("bins");
+        assert_eq!(room(unworn, &joint(unworn, Some(profile))), unworn + 3e-5);
     }
 }

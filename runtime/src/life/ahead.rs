@@ -77,8 +77,12 @@ impl<F: WearSource> Walker<'_, F> {
             let cycles: f64 = pieces.iter().map(|piece| piece.cycles).sum();
             let error: f64 = pieces.iter().map(|piece| piece.error).sum();
             let allowed = PART * tolerance * cycles;
-            if error <= allowed || pieces.len() >= MOST {
+            if error <= allowed {
                 return self.path(stations, &pieces, (error, most), POINTS);
+            }
+            if pieces.len() >= MOST {
+                // What is not smooth by so many scatters.
+                return self.path(stations, &pieces, (error, most), SCATTERED_POINTS);
             }
             let half = before.iter().rev().find(|(count, _)| 2 * count <= pieces.len() + 1);
             if half.is_some_and(|(_, half)| error > SCATTERS * half) {
