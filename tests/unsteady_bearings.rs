@@ -2,12 +2,15 @@
 
 mod support;
 
+use std::ops::ControlFlow;
+use std::sync::Mutex;
+
 use linkwear::backend::Backend;
 use linkwear::mechanism::Mechanism;
 use linkwear_codegen::Options;
 use linkwear_codegen::source::SourceFile;
 use linkwear_runtime::life::WearSource;
-use linkwear_runtime::{DynamicsSource, RevolutionSettings, Steadiness};
+use linkwear_runtime::{DynamicsSource, RevolutionSettings, Steadiness, Watch};
 use support::loose_rotor;
 
 /// A rotor of 5 kg at 5 Hz in a bearing that wears.
@@ -98,6 +101,39 @@ fn a_swing_that_grows_in_hundreds_of_turns_is_met_and_kept_as_the_joint_wears() 
         let [more, off] = [steady, long].map(|other| now[0].wear / other[0].wear - 1.0);
         assert!(off.abs() < 1.5e-3 && more > 2e-3, "{off:e} {more:e} {now:?} {long:?}");
     }
+}
+
+#[test]
+fn progress_of_a_motion_that_is_left_does_not_go_back_and_its_swing_waits_for_new_surfaces_only() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/data/tilting_bearing.toml");
+    let source = SourceFile {
+        name: "bearing.toml".to_owned(),
+        text: std::fs::read_to_string(path).expect("an example"),
+    };
+    let mechanism = Mechanism::compile(&source, &Options::default(), Backend::Auto).expect("it compiles");
+    let system = mechanism.system();
+    let settings = RevolutionSettings::default();
+    let heard = Mutex::new(Vec::new());
+    let hear = |part: f64| {
+        heard.lock().expect("one thread").push(part);
+        ControlFlow::Continue(())
+    };
+    let source = DynamicsSource::new(&*system, &mechanism.description, &mechanism.parameters, settings);
+    let mut source = source.expect("a start").watched_by(Watch::new(&hear));
+    let (mut joints, mut state) = (source.unworn(), None);
+    let mut measure = |grown: f64| {
+        joints.iter_mut().for_each(|joint| joint.clearance *= grown);
+        source.measure(&joints, &mut state).expect("it turns");
+        let lasting = state.as_ref().expect("an orbit").lasting;
+        (lasting, std::mem::take(&mut *heard.lock().expect("one thread")))
+    };
+    let (lasting, begun) = measure(1.0);
+    // Turns until it has left, and those in which it settles where it went.
+    assert!(lasting > 10 && begun.is_sorted(), "{lasting} {begun:?}");
+    let before = |heard: &[f64]| heard.iter().filter(|part| **part == 0.0).count();
+    let [same, worn] = [1.0, 1.01].map(|grown| before(&measure(grown).1));
+    // Every turn is heard at least once.
+    assert!(same < lasting as usize / 2 && worn >= lasting as usize, "{same} {worn} {lasting}");
 }
 
 /// A rotor of 1 kg at 2 Hz, a millimetre off its axis, under a load that swings by half its mean; its bearing of a polymer.

@@ -400,7 +400,7 @@ revolutions_per_cycle = 1e6"#,
         file: File::Swing,
         text: "A spring with a stiffness below zero pushes away from where it is unloaded, the more the further. A mechanism that \
                snaps over can be drawn so, and `allow` in [check] then says that it is meant; else a sign is wrong, and the \
-               motion runs away. Cables, bushings, springs of balls and stops cannot have one.",
+               motion runs away. All other stiffnesses are at least zero (E0403).",
         wrong: r#"[points]
 P = { at = ["1 m", "-0.5 m", 0], on = "ground" }
 
