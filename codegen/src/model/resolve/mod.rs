@@ -106,6 +106,8 @@ pub fn resolve(
         lost_tables: Vec::new(),
     };
     let mut mechanism = resolver.mechanism(&spec.file, overrides);
+    // Beside errors, too: what is meant is no news in a file that is being written.
+    resolver.diagnostics.retain(|diagnostic| !mechanism.allowed.contains(&diagnostic.code));
     resolver.fold_cells(&spec.file);
     let all = Diagnostics::from_list(resolver.diagnostics).located_in(&sources);
     if all.has_errors() {
