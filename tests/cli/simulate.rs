@@ -226,10 +226,11 @@ fn a_failed_run_leaves_no_file() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_keeps_what_was_computed() {
+    use std::io::{BufRead, BufReader, Read};
     let folder = Folder::new("interrupt");
     let out = folder.write("rows.csv", "<!-- linkwear 0.0.0 -->\ncomplete rows of an earlier run");
     // Long enough that it cannot end before the signal comes.
-    let child = crate::command::start(&[
+    let mut child = crate::command::start(&[
         "simulate",
         PENDULUM,
         "--time",
@@ -239,12 +240,19 @@ fn an_interrupt_keeps_what_was_computed() {
         "--out",
         &out,
     ]);
-    std::thread::sleep(std::time::Duration::from_millis(1500));
+    // A line of its progress: however slow the machine is, there are rows.
+    let mut told = BufReader::new(child.stderr.take().expect("a pipe"));
+    let mut line = String::new();
+    while !line.contains('%') {
+        line.clear();
+        assert!(told.read_line(&mut line).expect("text") > 0, "it ended");
+    }
     let killed = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(killed.expect("kill runs").success());
-    let answer = crate::command::Answer::of(child.wait_with_output().expect("an end"));
-    assert_eq!(answer.code, 1);
-    assert!(answer.err.contains("C0009"), "{}", answer.err);
+    let mut err = String::new();
+    told.read_to_string(&mut err).expect("text");
+    assert_eq!(crate::command::Answer::of(child.wait_with_output().expect("an end")).code, 1);
+    assert!(err.contains("C0009"), "{err}");
     assert_eq!(folder.read("rows.csv"), "<!-- linkwear 0.0.0 -->\ncomplete rows of an earlier run");
     let (header, rows) = table(&folder.read("rows.partial.csv"));
     assert!(!rows.is_empty() && rows.iter().all(|row| row.len() == header.len()));
