@@ -194,6 +194,12 @@ fn what_has_no_derivative_is_refused() {
     let refused =
         SensitivityStudy::new(&file("mechanisms/rssr_rigid.toml")).run().expect_err("nothing wears");
     assert!(matches!(refused, SensitivityError::NothingWears), "{refused}");
+    let text = rotor("").text;
+    let (head, rest) = text.split_once("[parameters]").expect("parameters");
+    let (_, rest) = rest.split_once("[points]").expect("points");
+    let text = format!("{head}[points]{}", rest.replace("\"k\"", "1e-7"));
+    let refused = SensitivityStudy::new(&SourceFile { text, ..rotor("") }).run().expect_err("no parameters");
+    assert!(matches!(refused, SensitivityError::NoParameters), "{refused}");
 }
 
 /// A rotor on one journal whose contact widens as it wears.

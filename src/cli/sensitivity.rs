@@ -54,6 +54,9 @@ fn failed(arguments: &SensitivityArguments, error: SensitivityError) -> Failure 
         SensitivityError::UnknownParameter { parameter, known } => {
             Failure::unknown_name("parameter", parameter, known, known)
         }
+        SensitivityError::NoParameters => life(
+            "write a number of the file as a parameter: `c0 = \"10 um\"` in [parameters], and `\"c0\"` in its place",
+        ),
         SensitivityError::Setting { .. } => Failure::usage(&error, "choose another value"),
         SensitivityError::Interrupted => Failure::stopped(file, &error, "it begins anew"),
         SensitivityError::Run(error) => Failure::run(file, error, None),

@@ -46,7 +46,9 @@ pub(super) fn chosen(
 }
 
 fn named(all: &[Parameter], asked: Option<&[String]>) -> Result<Vec<Parameter>, SensitivityError> {
-    let Some(asked) = asked else { return Ok(all.to_vec()) };
+    let Some(asked) = asked else {
+        return if all.is_empty() { Err(SensitivityError::NoParameters) } else { Ok(all.to_vec()) };
+    };
     let one = |name: &String| {
         let known = || all.iter().map(|parameter| parameter.name.clone()).collect();
         let unknown = || SensitivityError::UnknownParameter { parameter: name.clone(), known: known() };

@@ -11,6 +11,9 @@ pub enum SensitivityError {
     /// The file is wrong.
     #[error("{0}")]
     Mechanism(Diagnostics),
+    /// The file has no parameters.
+    #[error("this file has no parameters, by which its life could be differentiated")]
+    NoParameters,
     /// The file has no such parameter.
     #[error("there is no parameter `{parameter}`; there are: {}", .known.join(", "))]
     UnknownParameter {
