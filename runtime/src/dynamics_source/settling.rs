@@ -59,10 +59,8 @@ pub(super) struct Settling {
     /// The largest seen.
     seen: Option<f64>,
     last: Option<f64>,
-    /// By how much the last two turns left journals elsewhere than where they began, the last first, and how many times as much that is as
-    /// of one and two turns before.
-    moved: [Option<Moved>; 2],
-    grown: [Option<f64>; 2],
+    /// By how much the last three turns left journals elsewhere than where they began, the last first.
+    moved: [Option<Moved>; 3],
     /// What is known of the motion's stability, and whether this measurement needs more.
     tried: Vec<f64>,
     lasting: u32,
@@ -76,21 +74,24 @@ impl Settling {
         let known = from.map_or(1.0, |orbit| (grown * orbit.contraction).min(1.0));
         let tried = from.map_or_else(Vec::new, |orbit| orbit.tried.clone());
         let lasting = from.map_or(0, |orbit| orbit.lasting);
-        Self { settled, known, seen: None, last: None, moved: [None; 2], grown: [None; 2], tried, lasting }
+        Self { settled, known, seen: None, last: None, moved: [None; 3], tried, lasting }
     }
 
     /// A turn has left journals elsewhere than where it began by so much.
     pub(super) fn moves(&mut self, by: Moved) {
-        self.grown = self.moved.map(|before| before.map(|before| growth(before, by)));
-        self.moved = [Some(by), self.moved[0]];
+        self.moved.rotate_right(1);
+        self.moved[0] = Some(by);
     }
 
     /// Whether journals come nearer to where they stood a turn before, by the last turn or by both of the last two: of these the first may
     /// have left offsets where they were by chance.
     fn comes_back(&self) -> bool {
         let enough = if self.tried.is_empty() { FIRST_COMES_BACK } else { COMES_BACK };
-        let [in_one, in_two] = self.grown;
-        in_one.is_some_and(|factor| factor < enough) || in_two.is_some_and(|factor| factor < enough * enough)
+        let [now, one_before, two_before] = self.moved;
+        let is_less = |before: Option<Moved>, part: f64| {
+            before.zip(now).is_some_and(|(before, now)| growth(before, now) < part)
+        };
+        is_less(one_before, enough) || is_less(two_before, enough * enough)
     }
 
     /// Whether a turn counts that differs by these parts of its wear from the one before; what is no number has not settled.
@@ -124,7 +125,7 @@ impl Settling {
         self.tried = rooms;
         if let Some(left) = left {
             (self.known, self.seen, self.last, self.lasting) = (1.0, None, None, left.lasting);
-            (self.moved, self.grown) = ([None; 2], [None; 2]);
+            self.moved = [None; 3];
         }
     }
 
@@ -157,6 +158,11 @@ impl Settling {
 mod tests {
     use super::*;
 
+    fn orbit(contraction: f64, tried: Vec<f64>) -> Orbit {
+        let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
+        Orbit { turn, contraction, tried, lasting: 0 }
+    }
+
     #[test]
     fn turns_count_once_their_factor_tells_that_later_ones_are_alike() {
         let mut first = Settling::new(None, 1.0, 1e-5);
@@ -165,8 +171,7 @@ mod tests {
         // By a factor of 0.02, and so do the next ones: 4e-7.
         assert!(first.has_settled([2e-5].into_iter()));
         assert_eq!(first.contraction(), 0.25);
-        let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
-        let from = |contraction| Orbit { turn: turn.clone(), contraction, tried: vec![], lasting: 0 };
+        let from = |contraction| orbit(contraction, vec![]);
         let mut next = Settling::new(Some(&from(0.02)), 1.1, 1e-5);
         // 2 times 0.03 times 1e-4.
         assert!(next.has_settled([1e-4].into_iter()) && next.contraction() == 0.03);
@@ -185,12 +190,11 @@ mod tests {
         let mut still = Settling::new(Some(&from(0.5)), 1.1, 1e-5);
         assert!(still.has_settled([0.0].into_iter()) && !still.has_settled([f64::NAN, 0.0].into_iter()));
     }
+
     #[test]
     fn a_turn_that_left_offsets_by_chance_where_they_were_does_not_hide_that_journals_come_back() {
         let turns = |moved: &[Moved], tried: Vec<f64>| {
-            let turn = TurnState { t: 0.0, q: vec![], v: vec![], joints: vec![], memory: vec![] };
-            let from = Orbit { turn, contraction: 1.0, tried, lasting: 0 };
-            let mut settling = Settling::new(Some(&from), 1.0, 1e-5);
+            let mut settling = Settling::new(Some(&orbit(1.0, tried)), 1.0, 1e-5);
             moved.iter().for_each(|moved| settling.moves(*moved));
             settling.comes_back()
         };

@@ -5,7 +5,7 @@
 //! made in rounds, which the fine scale may run side by side: at even places up to the threshold, then where the curve through its
 //! neighbours is least sure.
 
-use super::curve::{Curve, Measured};
+use super::curve::{Curve, Measured, apart};
 use super::path::{Increments, Path, Segment, Walker, rates};
 use super::settings::{LifeSettings, WearStep};
 use super::source::WearSource;
@@ -132,7 +132,10 @@ impl<F: WearSource> Walker<'_, F> {
             starts.push(start + piece.cycles);
         }
         let (last, end) = (stations.last()?, *starts.last()?);
-        let curve = through(&last_apart(&known(&stations), points))?;
+        let known = known(&stations);
+        let (own, earlier) = known.split_last()?;
+        let others = apart(&[*own], earlier, APART * own.rate).take(points - 1);
+        let curve = others.fold(Curve::level(*own), Curve::through);
         let beyond = curve.after(last.worn, 1.0);
         segments.push(segment((end, 1.0), (last.worn, last.rate), (beyond, curve.rate(beyond))));
         let span = (end.floor() as u64 + 1).min(most.max(1));
@@ -180,18 +183,6 @@ fn pieces<S>(stations: &[Station<S>]) -> Option<Vec<Piece>> {
 
 fn known<S>(stations: &[Station<S>]) -> Vec<Measured> {
     stations.iter().map(|station| Measured { wear: station.worn, rate: station.rate }).collect()
-}
-
-/// The last of measurements and so many in all before it that are apart.
-fn last_apart(known: &[Measured], points: usize) -> Vec<Measured> {
-    let mut taken: Vec<Measured> = Vec::with_capacity(points);
-    for one in known.iter().rev() {
-        let is_apart = taken.last().is_none_or(|last| last.wear - one.wear >= APART * last.rate);
-        if is_apart && taken.len() < points {
-            taken.push(*one);
-        }
-    }
-    taken
 }
 
 fn through(points: &[Measured]) -> Option<Curve> {

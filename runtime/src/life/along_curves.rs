@@ -1,7 +1,7 @@
 //! Steps of a path along curves through few measurements of their own and those of earlier steps: where the wear of every joint is one
 //! number. In: what was measured. Out: paths, and by how much they may err. Never knows which step comes next.
 
-use super::curve::{Curve, Measured};
+use super::curve::{Curve, Measured, apart};
 use super::error::LifeError;
 use super::path::{Increments, Path, Segment, Step, Walker, rates};
 use super::settings::WearStep;
@@ -115,21 +115,6 @@ impl<F: WearSource> Walker<'_, F> {
         let segment = Segment { start: 0.0, length, from: nothing, to, from_rate, to_rate };
         (Path { segments: vec![segment], span, end: None, error, seen: Vec::new() }, ratio)
     }
-}
-
-/// Earlier measurements that are no nearer than this [m] to own ones and to each other, those nearest to the first first.
-fn apart(own: &[Measured], earlier: &[Measured], least: f64) -> impl Iterator<Item = Measured> + use<> {
-    let (first, mut taken) = (own[0].wear, own.to_vec());
-    let mut sorted = earlier.to_vec();
-    sorted.sort_by(|a, b| (a.wear - first).abs().total_cmp(&(b.wear - first).abs()));
-    sorted.into_iter().filter(move |one| {
-        let distances = taken.iter().map(|known| (one.wear - known.wear).abs());
-        let is_apart = distances.fold(f64::INFINITY, f64::min) >= least.abs();
-        if is_apart {
-            taken.push(*one);
-        }
-        is_apart
-    })
 }
 
 /// What half a cycle will add to a wear [m], by the curve through three measurements; nothing if there are less, or if that is none.

@@ -84,6 +84,25 @@ impl Curve {
     }
 }
 
+/// Earlier measurements that are no nearer than this [m] to own ones and to each other, those nearest to the first first.
+pub(super) fn apart(
+    own: &[Measured],
+    earlier: &[Measured],
+    least: f64,
+) -> impl Iterator<Item = Measured> + use<> {
+    let (first, mut taken) = (own[0].wear, own.to_vec());
+    let mut sorted = earlier.to_vec();
+    sorted.sort_by(|a, b| (a.wear - first).abs().total_cmp(&(b.wear - first).abs()));
+    sorted.into_iter().filter(move |one| {
+        let distances = taken.iter().map(|known| (one.wear - known.wear).abs());
+        let is_apart = distances.fold(f64::INFINITY, f64::min) >= least.abs();
+        if is_apart {
+            taken.push(*one);
+        }
+        is_apart
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
